@@ -1,0 +1,1 @@
+"""The Young-Laplace equation, solved exactly for axisymmetric bridges between two solids."""
