@@ -1,0 +1,254 @@
+"""Checks of public arguments: numbers with or without units become SI float64 arrays, or one line refuses them."""
+
+import math
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = TypeVar("Floats", float, NDArray[np.float64])
+
+
+def quantity(name: str, value: object, unit: str, *, allow_inf: bool = False) -> NDArray[np.float64]:
+    """Argument as an array of SI numbers, 0-d for a single number.
+
+    Parameters
+    ----------
+    name : str
+        The argument's name, for the messages.
+    value : object
+        A number, an array, a (nested) sequence of them, or any of these with units (pint or alike).
+    unit : str
+        The SI unit in which it is wanted; empty for a pure number.
+    allow_inf : bool
+        Whether infinite values pass, as the radius of a plane does.
+
+    Returns
+    -------
+    ndarray
+        Of the argument's own shape, [unit].
+
+    Raises
+    ------
+    ValueError
+        If it is not made of real numbers, is empty, has another dimension, or holds NaN or an unwanted inf.
+
+    Examples
+    --------
+    >>> quantity("radius", [50e-6, 20e-6], "m")
+    array([5.e-05, 2.e-05])
+    >>> quantity("suction", "20 kPa", "Pa")
+    Traceback (most recent call last):
+        ...
+    ValueError: suction: '20 kPa' is not a real number
+    """
+    array = _real_array(name, _without_units(name, value, unit))
+    if array.size == 0:
+        raise ValueError(f"{name}: an array of shape {array.shape} holds no number")
+    _refuse_where(np.isnan(array), name, array, unit, "is not a number")
+    if not allow_inf:
+        _refuse_where(np.isinf(array), name, array, unit, "is not finite")
+    return array
+
+
+def scalar(name: str, value: object, unit: str) -> float:
+    """Argument as one finite SI number.
+
+    Parameters and errors are those of `quantity`; an array is refused as well.
+
+    Examples
+    --------
+    >>> scalar("temperature", 293.15, "K")
+    293.15
+    """
+    array = quantity(name, value, unit)
+    if array.ndim > 0:
+        raise ValueError(f"{name}: an array of shape {array.shape} is given where one number is needed")
+    return float(array)
+
+
+def in_range(
+    name: str,
+    values: Floats,
+    low: float = -math.inf,
+    high: float = math.inf,
+    *,
+    brackets: str = "[]",
+    unit: str = "",
+    high_hint: str = "",
+) -> Floats:
+    """Values unchanged, if all of them lie in an interval.
+
+    Parameters
+    ----------
+    name : str
+        The argument's name, for the message.
+    values : float or ndarray
+        SI numbers, as `quantity` and `scalar` return them.
+    low, high : float
+        Ends of the interval, [unit].
+    brackets : str
+        Which ends belong to it: ``[]``, ``[)``, ``(]`` or ``()``.
+    unit : str
+        SI unit, for the message.
+    high_hint : str
+        Advice for a value that is too large; ``{value}`` stands for the value.
+
+    Returns
+    -------
+    float or ndarray
+        ``values``.
+
+    Raises
+    ------
+    ValueError
+        With the first value outside, its index and the interval.
+
+    Examples
+    --------
+    >>> in_range("humidity", 1.2, 0.0, 1.0, brackets="()")
+    Traceback (most recent call last):
+        ...
+    ValueError: humidity: 1.2 is not in (0, 1)
+    """
+    array = np.asarray(values)
+    too_low = ~(array >= low) if brackets[0] == "[" else ~(array > low)
+    too_high = ~(array <= high) if brackets[1] == "]" else ~(array < high)
+    reason = f"is not {_interval(low, high, brackets)}"
+    _refuse_where(too_low, name, array, unit, reason)
+    _refuse_where(too_high, name, array, unit, f"{reason}; {high_hint}" if high_hint else reason)
+    return values
+
+
+def angle(name: str, value: object) -> NDArray[np.float64]:
+    """Angle in [0, π), the range of a contact angle; one that looks like degrees is answered with the conversion.
+
+    Parameters
+    ----------
+    name : str
+        The argument's name, for the messages.
+    value : object
+        As for `quantity`.
+
+    Returns
+    -------
+    ndarray
+        [rad].
+
+    Examples
+    --------
+    >>> angle("contact_angle", 20.0)
+    Traceback (most recent call last):
+        ...
+    ValueError: contact_angle: 20.0 rad is not in [0, pi); for degrees use numpy.deg2rad(20.0)
+    """
+    hint = "for degrees use numpy.deg2rad({value})"
+    return in_range(name, quantity(name, value, "rad"), 0.0, math.pi, brackets="[)", unit="rad", high_hint=hint)
+
+
+def broadcast(**arrays: NDArray[Any]) -> tuple[NDArray[Any], ...]:
+    """Named arguments as arrays of one common shape, in the order given.
+
+    Parameters
+    ----------
+    **arrays : ndarray
+        The arguments under their public names.
+
+    Returns
+    -------
+    tuple of ndarray
+        Views, not to be written to.
+
+    Raises
+    ------
+    ValueError
+        With the shape of every argument, if they have no common one.
+
+    Examples
+    --------
+    >>> gap, suction = broadcast(separation=np.zeros(3), suction=np.float64(2e4))
+    >>> suction
+    array([20000., 20000., 20000.])
+    """
+    try:
+        return np.broadcast_arrays(*arrays.values())
+    except ValueError:
+        shapes = ", ".join(f"{name} {np.shape(array)}" for name, array in arrays.items())
+        raise ValueError(f"shapes do not broadcast: {shapes}") from None
+
+
+def one_of(name: str, value: object, allowed: tuple[str, ...]) -> None:
+    """Refuse a word that is not among the allowed ones.
+
+    Examples
+    --------
+    >>> one_of("branch", "thin", ("stable", "unstable"))
+    Traceback (most recent call last):
+        ...
+    ValueError: branch: 'thin' is not one of 'stable', 'unstable'
+    """
+    if value not in allowed:
+        raise ValueError(f"{name}: {value!r} is not one of {', '.join(map(repr, allowed))}")
+
+
+def plain(array: Any) -> Any:
+    """Python scalar of a 0-d array, the array itself otherwise.
+
+    Examples
+    --------
+    >>> plain(np.array(2.5)), plain(np.array([True]))
+    (2.5, array([ True]))
+    """
+    return array.item() if np.ndim(array) == 0 else array
+
+
+def _without_units(name: str, value: object, unit: str) -> object:
+    """Value as bare SI numbers; what carries units is known by its behaviour, so that no unit package is imported."""
+    if isinstance(value, (list, tuple)):
+        return [_without_units(name, item, unit) for item in value]
+    if isinstance(value, (bool, np.bool_)):  # NumPy would make True a 1.0 in a list of floats
+        raise ValueError(f"{name}: {value} is not a real number")
+    own_unit = getattr(value, "units", getattr(value, "unit", None))
+    if own_unit is None or not hasattr(value, "to"):
+        return value
+    try:
+        converted = value.to(unit)
+    except Exception as error:  # every unit package raises an error of its own
+        wanted = f"one in {unit}" if unit else "a pure number"
+        raise ValueError(f"{name}: a quantity in {own_unit} is not {wanted}") from error
+    return getattr(converted, "magnitude", converted)
+
+
+def _real_array(name: str, value: object) -> NDArray[np.float64]:
+    try:
+        array = np.asarray(value)
+    except ValueError as error:
+        raise ValueError(f"{name}: a nested sequence of unequal lengths is not an array") from error
+    if array.dtype.kind not in "iuf":
+        if array.ndim > 0:
+            raise ValueError(f"{name}: an array of type {array.dtype} does not hold real numbers")
+        raise ValueError(f"{name}: {array.item()!r} is not a real number")
+    return array.astype(np.float64, copy=False)
+
+
+def _refuse_where(bad: NDArray[np.bool_], name: str, array: NDArray[np.float64], unit: str, reason: str) -> None:
+    """Raise for the first bad element; ``{value}`` in the reason stands for it."""
+    if not np.any(bad):
+        return
+    index = tuple(int(i) for i in np.argwhere(bad)[0])
+    value = float(array[index])
+    place = str(list(index)) if index else ""
+    shown = f"{value} {unit}".rstrip()
+    raise ValueError(f"{name}{place}: {shown} " + reason.replace("{value}", str(value)))
+
+
+def _interval(low: float, high: float, brackets: str) -> str:
+    if math.isinf(high):
+        return f"{'>=' if brackets[0] == '[' else '>'} {_short(low)}"
+    if math.isinf(low):
+        return f"{'<=' if brackets[1] == ']' else '<'} {_short(high)}"
+    return f"in {brackets[0]}{_short(low)}, {_short(high)}{brackets[1]}"
+
+
+def _short(bound: float) -> str:
+    return "pi" if bound == math.pi else f"{bound:.10g}"
