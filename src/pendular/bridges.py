@@ -1,0 +1,255 @@
+"""The public face: a bridge between two solids, its rupture and its force curve, in SI units."""
+
+from dataclasses import replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._check import in_range, one_of, plain, quantity
+from .by_dataset import bridge_by_dataset, rupture_by_dataset
+from .by_law import bridge_by_law, rupture_by_law
+from .exact import tracing
+from .exact.equilibrium import Solids, State
+from .laws import laws
+from .liquid import HUMIDITY_UNCERTAINTY, Liquid, humidity_from_suction, suction_from_humidity, warn_kelvin
+from .pair import Pair
+from .problem import Asked, Control, ConvergenceWarning, control_of, reduce, restore, solve
+from .result import FIELDS, Bridge, Profile
+
+__all__ = ["FIELDS", "Bridge", "ConvergenceWarning", "Pair", "Profile", "bridge", "curve", "rupture"]
+
+Floats = NDArray[np.float64]
+
+
+def bridge(
+    pair: Pair,
+    separation: ArrayLike,
+    *,
+    suction: ArrayLike | None = None,
+    volume: ArrayLike | None = None,
+    humidity: ArrayLike | None = None,
+    liquid: Liquid,
+    branch: Literal["stable", "unstable"] = "stable",
+    method: str = "exact",
+) -> Bridge:
+    r"""Capillary bridge between two solids at a separation, exactly.
+
+    .. math:: \frac{Y''}{(1+Y'^2)^{3/2}} - \frac{1}{Y\sqrt{1+Y'^2}} = \frac{\Delta p}{\gamma}
+        \qquad \text{(Zhao et al. [1]_, Eq. 8)}, \qquad F = 2\pi\gamma\lambda \qquad \text{(Eq. 11)}
+
+    Parameters
+    ----------
+    pair : Pair
+        The solids.
+    separation : array_like
+        D, whole gap from surface to surface, [m], above minus half the smaller radius; negative means overlap.
+    suction : array_like, optional
+        Δp = p_gas - p_liquid held constant, [Pa]. Exactly one of the three controls is given.
+    volume : array_like, optional
+        Liquid volume held constant, [m³], > 0 and less than encloses the solids.
+    humidity : array_like, optional
+        Relative humidity in (0, 1), [-]: suction by the Kelvin equation.
+    liquid : Liquid
+        Surface tension, and for humidity density and molar mass.
+    branch : {"stable", "unstable"}
+        Of the two bridges that meet at the rupture distance: the one connected with the contact, or the other.
+    method : str
+        ``"exact"``; ``"dataset"``, the interpolation of the paper; or the name of a law in ``pendular.laws``. But for
+        the exact method the answer holds the force only.
+
+    Returns
+    -------
+    Bridge
+        Fields of the shape to which the arguments, radii and angles broadcast.
+
+    Raises
+    ------
+    ValueError
+        For bad input, naming the argument, its value and what is allowed.
+
+    Warns
+    -----
+    KelvinWarning
+        Where the Kelvin equation is doubtful, or the humidity does not fix the force.
+    RangeWarning
+        Where a law is asked outside its published range, once a call.
+    ConvergenceWarning
+        Where the solver failed; the fields are NaN there.
+
+    Notes
+    -----
+    **Validity.** No gravity, no roughness. Relative error below 1e-10 up to 0.999 of the rupture distance for reduced
+    suctions from 0 to 1e12, and for volumes below 1e-9; printed by ``python -m benchmarks.accuracy``.
+    In an overlap the volume counts the liquid outside the two caps, each of them whole.
+
+    References
+    ----------
+    .. [1] C.-F. Zhao, N. P. Kruyt, O. Millet, Powder Technology 360 (2020) 622.
+
+    Examples
+    --------
+    >>> grains = Pair(radius=50e-6, contact_angle=np.deg2rad(20))
+    >>> b = bridge(grains, 1e-6, suction=20e3, liquid=Liquid(surface_tension=0.0728))
+    >>> print(f"{b.force:.4e} N, {b.volume:.4e} m3, stable: {b.stable}")
+    1.5087e-05 N, 1.3015e-15 m3, stable: True
+    """
+    one_of("branch", branch, ("stable", "unstable"))
+    control = control_of(suction, volume, humidity, liquid)
+    problem = reduce(pair, control, liquid, separation)
+    if _is_approximate(method):
+        one_of("branch", branch, ("stable",))
+        return bridge_by_dataset(problem) if method == "dataset" else bridge_by_law(problem, method)
+    answer = _echo(solve(problem, "unstable" if branch == "unstable" else "stable"), separation=problem.separation)
+    if humidity is not None:
+        _judge_humidity(pair, separation, control, liquid, branch, answer)
+    return answer
+
+
+def rupture(
+    pair: Pair,
+    *,
+    suction: ArrayLike | None = None,
+    volume: ArrayLike | None = None,
+    humidity: ArrayLike | None = None,
+    liquid: Liquid,
+    limit: Literal["fold", "stability"] = "fold",
+    method: str = "exact",
+) -> Bridge:
+    r"""Bridge at the end of its stable branch; its separation is the rupture distance.
+
+    .. math:: \left.\frac{\partial D}{\partial\lambda}\right|_{\Delta p} = 0 \quad\text{or}\quad
+              \left.\frac{\partial D}{\partial\lambda}\right|_V = 0
+
+    Parameters
+    ----------
+    pair, suction, volume, humidity, liquid
+        As for :func:`bridge`.
+    limit : {"fold", "stability"}
+        The fold, beyond which there is no bridge; or where the bridge first loses its stability. The two differ only
+        at constant volume between equal solids of equal contact angle, above about 31°, where the liquid slides to one
+        side before the fold.
+    method : str
+        ``"exact"``, ``"dataset"``, or the name of a law in ``pendular.laws``.
+
+    Returns
+    -------
+    Bridge
+        Fields of the shape to which the arguments broadcast; ``exists`` is False where solids hold no bridge apart.
+
+    Raises
+    ------
+    ValueError
+        For bad input.
+
+    Warns
+    -----
+    KelvinWarning
+        Where the Kelvin equation is doubtful.
+    ConvergenceWarning
+        Where the solver failed; the fields are NaN there.
+
+    Notes
+    -----
+    **Validity.** Relative error of the rupture distance below 1e-11. At the fold the stiffness is minus infinity and
+    ``stable`` tells of the branch that ends there.
+
+    Examples
+    --------
+    >>> grains = Pair(radius=50e-6, contact_angle=np.deg2rad(40))
+    >>> water = Liquid(surface_tension=0.0728)
+    >>> print(f"{rupture(grains, suction=20e3, liquid=water).separation:.6e}")
+    2.443824e-06
+    >>> fold = rupture(grains, volume=1.25e-16, liquid=water)
+    >>> first = rupture(grains, volume=1.25e-16, liquid=water, limit="stability")
+    >>> print(f"{fold.separation / 50e-6:.6f} {first.separation / 50e-6:.6f}")
+    0.135844 0.133586
+    """
+    one_of("limit", limit, ("fold", "stability"))
+    control = control_of(suction, volume, humidity, liquid)
+    if humidity is not None:
+        warn_kelvin(liquid.surface_tension / control.value, 0.0, stacklevel=2)
+    problem = reduce(pair, control, liquid, 0.0)
+    if _is_approximate(method):
+        one_of("limit", limit, ("fold",))
+        return rupture_by_dataset(problem) if method == "dataset" else rupture_by_law(problem, method)
+    return solve(problem, limit)
+
+
+def curve(
+    pair: Pair,
+    *,
+    suction: ArrayLike | None = None,
+    volume: ArrayLike | None = None,
+    humidity: ArrayLike | None = None,
+    liquid: Liquid,
+    points: int = 201,
+) -> Bridge:
+    """Bridges from contact to the fold and down the unstable branch, at one control.
+
+    Parameters
+    ----------
+    pair, suction, volume, humidity, liquid
+        As for :func:`bridge`.
+    points : int
+        States on the curve, at least 5; the fold is the one with index ``points // 2``.
+
+    Returns
+    -------
+    Bridge
+        Fields with the points on a further last axis (before a solid's own axis).
+
+    Raises
+    ------
+    ValueError
+        For bad input.
+
+    Examples
+    --------
+    >>> c = curve(Pair(radius=50e-6, contact_angle=0.0), suction=20e3, liquid=Liquid(surface_tension=0.0728))
+    >>> int(np.argmax(c.separation)), bool(c.stable[0]), bool(c.stable[-1])
+    (100, True, False)
+    """
+    count = int(in_range("points", quantity("points", points, ""), 5.0))
+    control = control_of(suction, volume, humidity, liquid)
+    if humidity is not None:
+        warn_kelvin(liquid.surface_tension / control.value, 0.0, stacklevel=2)
+    problem = reduce(pair, control, liquid, 0.0)
+    states = np.empty((len(problem.rows), count, len(State._fields)))
+    statuses = np.empty(states.shape[:2], np.int8)
+    for i, row in enumerate(problem.rows):
+        solids = Solids(*row[2:])
+        if problem.is_path[i]:
+            statuses[i] = tracing.path_curve(problem.held, row[1], solids, states[i])
+        else:
+            statuses[i] = tracing.suction_curve(row[1], solids, states[i])
+    return restore(problem, states, statuses, (count,))
+
+
+def _is_approximate(method: str) -> bool:
+    """Whether a method is the data base or a law of the registry; what is neither that nor exact is refused."""
+    one_of("method", method, ("exact", "dataset", *laws))
+    return method != "exact"
+
+
+def _echo(answer: Bridge, separation: Floats) -> Bridge:
+    """Give back the separation that was asked, not the one that the solver met to the last digit but one."""
+    return replace(answer, separation=plain(np.where(answer.exists, separation, answer.separation)))
+
+
+def _judge_humidity(
+    pair: Pair, separation: ArrayLike, control: Control, liquid: Liquid, branch: str, answer: Bridge
+) -> None:
+    """Warn where the Kelvin equation is doubtful or 0.1 % RH moves the force by more than a tenth."""
+    humidity = np.asarray(humidity_from_suction(control.value, liquid))
+    asked: Asked = "unstable" if branch == "unstable" else "stable"
+    change = np.zeros(np.shape(answer.force))
+    for shift in (-HUMIDITY_UNCERTAINTY, HUMIDITY_UNCERTAINTY):
+        shifted = np.clip(humidity + shift, 1e-9, 1.0 - 1e-12)
+        other = Control("suction", np.asarray(suction_from_humidity(shifted, liquid)))
+        moved = solve(reduce(pair, other, liquid, separation), asked).force
+        with np.errstate(invalid="ignore", divide="ignore"):
+            relative = np.where(np.asarray(answer.exists), moved / np.asarray(answer.force) - 1.0, 0.0)
+        change = np.maximum(change, np.abs(relative))
+    radius = liquid.surface_tension / np.where(answer.exists, control.value, np.nan)
+    warn_kelvin(radius, change, stacklevel=3)
