@@ -1,0 +1,153 @@
+"""The options that all commands share, read into what they ask: a pair, a liquid, and what is held constant."""
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+
+from typer import Option
+
+from .units import read, read_angle, read_fraction, show
+
+# NumPy and all that needs it are imported by those who use it: the help is shown without.
+if TYPE_CHECKING:
+    from .bridges import Bridge, Pair
+    from .liquid import Liquid
+
+__all__ = ["Question", "read_question"]
+
+_PLANE = ("inf", "plane", "plate")
+_ROOM_TEMPERATURE = "20degC"
+_FREEZING_POINT = 273.15  # 0 °C, [K]
+
+
+class Question(NamedTuple):
+    """What is asked by the options that all commands share."""
+
+    pair: "Pair"
+    liquid: "Liquid"
+    control: dict[str, float]  # suction, volume or humidity, and its SI value
+    title: str
+    subtitle: str
+    form: str  # of the answer: table, json or csv
+    picture: Path | None
+
+    def put_to(self, function: "Callable[..., Bridge]", *args: float, **options: Any) -> "Bridge":
+        """Ask one of the three functions of the library."""
+        return function(self.pair, *args, **self.control, liquid=self.liquid, **options)
+
+
+def _text(help_text: str, kind: str) -> Any:
+    return Option(help=help_text, metavar=kind)
+
+
+def read_question(
+    radius: Annotated[str, _text("Radius of both solids, or of the first: 50um.", "LENGTH")],
+    radius2: Annotated[str | None, _text("Radius of the second solid: 5um, or plane.", "LENGTH")] = None,
+    contact_angle: Annotated[str, _text("Contact angle: 20 or 20deg, 0.35rad.", "ANGLE")] = "0",
+    contact_angle2: Annotated[str | None, _text("Contact angle on the second solid, if another: 60.", "ANGLE")] = None,
+    suction: Annotated[str | None, _text("Held constant: gas minus liquid pressure, 20kPa,", "PRESSURE")] = None,
+    volume: Annotated[str | None, _text("or volume of the liquid, 5pL or 5000um^3,", "VOLUME")] = None,
+    humidity: Annotated[str | None, _text("or relative humidity, 90% or 0.9.", "FRACTION")] = None,
+    liquid: Annotated[str | None, _text("Liquid: ethanol; if not given, water.", "NAME")] = None,
+    temperature: Annotated[str | None, _text("Of the liquid: 25degC; if not given, 20degC.", "TEMPERATURE")] = None,
+    surface_tension: Annotated[str | None, _text("Instead of the name of a liquid: 72.8mN/m.", "TENSION")] = None,
+    as_json: Annotated[bool, Option("--json", help="Print JSON, in SI units.")] = False,
+    as_csv: Annotated[bool, Option("--csv", help="Print CSV, in SI units.")] = False,
+    plot: Annotated[
+        Path | None, Option(help="Draw pair and force curve: bridge.svg, .png or .pdf.", metavar="FILE")
+    ] = None,
+) -> Question:
+    """Read the shared options, with one line of error for what cannot be meant."""
+    from .bridges import Pair
+
+    if as_json and as_csv:
+        raise ValueError("json: given together with csv; one of the two is needed")
+    if plot is not None:
+        _check_suffix(plot)
+    radii = _radius("radius", radius), _radius("radius2", radius2 or radius)
+    degrees = _degrees("contact-angle", contact_angle), _degrees("contact-angle2", contact_angle2 or contact_angle)
+    control = _control(suction, volume, humidity)
+    if humidity is not None and surface_tension is not None:
+        raise ValueError("surface-tension: not enough for humidity, which needs the density of a liquid given by name")
+    wetting = _liquid(liquid, temperature, surface_tension)
+    return Question(
+        pair=Pair(radii, (math.radians(degrees[0]), math.radians(degrees[1]))),
+        liquid=wetting,
+        control=control,
+        title=_describe_solids(radii, degrees),
+        subtitle=f"{_describe_liquid(wetting)}  ·  {_describe_control(control)}",
+        form="json" if as_json else "csv" if as_csv else "table",
+        picture=plot,
+    )
+
+
+def _check_suffix(plot: Path) -> None:
+    from .plot import FORMATS
+
+    if plot.suffix.lower() not in FORMATS:
+        raise ValueError(f"plot: '{plot}' does not end in one of {', '.join(FORMATS)}")
+
+
+def _radius(name: str, text: str) -> float:
+    return math.inf if text.strip().lower() in _PLANE else read(name, text, "m", "50um")
+
+
+def _degrees(name: str, text: str) -> float:
+    degrees = read_angle(name, text)
+    if not 0.0 <= degrees < 180.0:
+        raise ValueError(f"{name}: {degrees:.10g} deg is not in [0, 180)")
+    return degrees
+
+
+def _control(suction: str | None, volume: str | None, humidity: str | None) -> dict[str, float]:
+    """Read what is held constant; that it is one thing is for the library to say."""
+    control = {}
+    if suction is not None:
+        control["suction"] = read("suction", suction, "Pa", "20kPa")
+    if volume is not None:
+        control["volume"] = read("volume", volume, "m^3", "5pL")
+    if humidity is not None:
+        control["humidity"] = read_fraction("humidity", humidity)
+    return control
+
+
+def _liquid(name: str | None, temperature: str | None, surface_tension: str | None) -> "Liquid":
+    from .liquid import Liquid
+
+    if surface_tension is None:
+        kelvin = read("temperature", temperature or _ROOM_TEMPERATURE, "K", _ROOM_TEMPERATURE)
+        return Liquid.water(kelvin) if name in (None, "water") else Liquid.named(str(name), kelvin)
+    if name is not None or temperature is not None:
+        unwanted = "temperature" if name is None else "liquid"
+        raise ValueError(f"{unwanted}: has no effect beside surface-tension; give one of the two")
+    return Liquid(surface_tension=read("surface-tension", surface_tension, "N/m", "72.8mN/m"))
+
+
+def _describe_solids(radii: tuple[float, float], degrees: tuple[float, float]) -> str:
+    first, second = (f"{angle:.4g}°" for angle in degrees)
+    angles = f"contact angle {first}" if first == second else f"contact angles {first} and {second}"
+    if math.isinf(radii[0]):
+        solids = f"Plate and {show(radii[1], 'm', 4)} sphere"
+    elif math.isinf(radii[1]):
+        solids = f"{show(radii[0], 'm', 4)} sphere on a plate"
+    elif radii[0] == radii[1]:
+        solids = f"Two {show(radii[0], 'm', 4)} spheres"
+    else:
+        solids = f"Spheres of {show(radii[0], 'm', 4)} and {show(radii[1], 'm', 4)}"
+    return f"{solids}, {angles}"
+
+
+def _describe_liquid(liquid: "Liquid") -> str:
+    tension = show(liquid.surface_tension, "N/m", 4)
+    if liquid.temperature is None:
+        return f"surface tension {tension}"
+    return f"{liquid.name} at {liquid.temperature - _FREEZING_POINT:.4g} °C, {tension}"
+
+
+def _describe_control(control: dict[str, float]) -> str:
+    units = {"suction": "Pa", "volume": "m^3"}
+    return " and ".join(
+        f"{name} {show(value, units[name])}" if name in units else f"relative humidity {100.0 * value:.6g} %"
+        for name, value in control.items()
+    )
