@@ -100,7 +100,7 @@ def bridge(
     if _is_approximate(method):
         one_of("branch", branch, ("stable",))
         return bridge_by_dataset(problem) if method == "dataset" else bridge_by_law(problem, method)
-    answer = _echo(solve(problem, "unstable" if branch == "unstable" else "stable"), separation=problem.separation)
+    answer = _echo(solve(problem, branch), separation=problem.separation)
     if humidity is not None:
         _judge_humidity(pair, separation, control, liquid, branch, answer)
     return answer
@@ -238,16 +238,15 @@ def _echo(answer: Bridge, separation: Floats) -> Bridge:
 
 
 def _judge_humidity(
-    pair: Pair, separation: ArrayLike, control: Control, liquid: Liquid, branch: str, answer: Bridge
+    pair: Pair, separation: ArrayLike, control: Control, liquid: Liquid, branch: Asked, answer: Bridge
 ) -> None:
     """Warn where the Kelvin equation is doubtful or 0.1 % RH moves the force by more than a tenth."""
     humidity = np.asarray(humidity_from_suction(control.value, liquid))
-    asked: Asked = "unstable" if branch == "unstable" else "stable"
     change = np.zeros(np.shape(answer.force))
     for shift in (-HUMIDITY_UNCERTAINTY, HUMIDITY_UNCERTAINTY):
         shifted = np.clip(humidity + shift, 1e-9, 1.0 - 1e-12)
         other = Control("suction", np.asarray(suction_from_humidity(shifted, liquid)))
-        moved = solve(reduce(pair, other, liquid, separation), asked).force
+        moved = solve(reduce(pair, other, liquid, separation), branch).force
         with np.errstate(invalid="ignore", divide="ignore"):
             relative = np.where(np.asarray(answer.exists), moved / np.asarray(answer.force) - 1.0, 0.0)
         change = np.maximum(change, np.abs(relative))

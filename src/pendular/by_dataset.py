@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from .dataset import make_dataset
 from .interpolation import interpolate, interpolate_rupture
-from .problem import Problem, control_name, derjaguin_radius, partial_bridge
+from .problem import Problem, control_name, control_star, derjaguin_radius, partial_bridge
 from .result import Bridge
 
 if TYPE_CHECKING:
@@ -42,15 +42,12 @@ def rupture_by_dataset(problem: Problem) -> Bridge:
 
 def _prepare(problem: Problem) -> tuple[Floats, Floats, Floats, Floats]:
     """Derjaguin radius, reduced control, size ratio and contact angle, one a row."""
-    mean_radius = derjaguin_radius(problem)
-    scale = mean_radius / problem.length
-    values = problem.rows[:, 1] / scale**3 if control_name(problem) == "volume" else problem.rows[:, 1] * scale
     k1, theta1, k2, theta2 = problem.rows[:, 2:].T
     if np.any(theta1 != theta2):
         raise ValueError("method: 'dataset' holds pairs of one contact angle; here the two angles differ")
     if np.any(np.minimum(k1, k2) == 0.0):
         raise ValueError("method: 'dataset' holds pairs of spheres; here one solid is a plane")
-    return mean_radius, values, np.maximum(k1, k2) / np.minimum(k1, k2), theta1
+    return derjaguin_radius(problem), control_star(problem), np.maximum(k1, k2) / np.minimum(k1, k2), theta1
 
 
 def _pairs(ratios: Floats, angles: Floats) -> "list[tuple[NDArray[np.bool_], xr.Dataset]]":

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .laws import Law, force_star, laws, rupture_star
-from .problem import Problem, control_name, derjaguin_radius, partial_bridge
+from .problem import Problem, control_name, control_star, derjaguin_radius, partial_bridge
 from .result import Bridge
 
 Floats = NDArray[np.float64]
@@ -46,9 +46,8 @@ def _prepare(problem: Problem, name: str, wanted: str) -> tuple[Law, Floats, tup
     if law.control != control:
         raise ValueError(f"method: {name!r} is a law at constant {law.control}, not at constant {control}")
     scale = derjaguin_radius(problem) / problem.length
-    value = problem.rows[:, 1] / scale**3 if control == "volume" else problem.rows[:, 1] * scale
     k1, theta1, k2, theta2 = problem.rows[:, 2:].T
-    return law, value, (theta1, theta2, k1 * scale, k2 * scale)
+    return law, control_star(problem), (theta1, theta2, k1 * scale, k2 * scale)
 
 
 def _variables(law: Law, control: Floats, solids: tuple[Floats, ...]) -> dict[str, Floats]:

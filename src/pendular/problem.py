@@ -215,6 +215,13 @@ def derjaguin_radius(problem: Problem) -> Floats:
     return 2.0 * problem.length / curvatures
 
 
+def control_star(problem: Problem) -> Floats:
+    """H R̄ or V/R̄³, one a row: what laws and data base are asked with."""
+    scale = derjaguin_radius(problem) / problem.length
+    held: Floats = problem.rows[:, 1]
+    return held / scale**3 if control_name(problem) == "volume" else held * scale
+
+
 def partial_bridge(problem: Problem, separation: Floats, force_star: Any, exists: Bools) -> Bridge:
     """Bridge in SI units with the few fields that a law or a table knows: force and separation at one control."""
     shape, gamma = problem.shape, problem.surface_tension
