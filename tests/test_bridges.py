@@ -512,3 +512,12 @@ def test_what_is_good_raises_no_warning():
         warnings.simplefilter("error")
         pl.bridge(PLATE, [0.0, 1e-6, 1.0], suction=[[-1e3], [0.0], [1e6]], liquid=LIQUID).profile()
         pl.curve(UNEQUAL, volume=[1e-16, 1e-15], liquid=LIQUID).profile()
+
+
+@pytest.mark.parametrize("degrees", [5.0, 20.0, 20.05, 28.0])
+def test_below_31_degrees_the_fold_comes_first(degrees):
+    pair = pl.Pair(radius=1e-4, contact_angle=np.deg2rad(degrees))
+    volumes = np.geomspace(1e-6, 5e-3, 25) * 1e-12
+    fold = pl.rupture(pair, volume=volumes, liquid=pl.Liquid(surface_tension=0.0728)).separation
+    first = pl.rupture(pair, volume=volumes, liquid=pl.Liquid(surface_tension=0.0728), limit="stability").separation
+    assert first == pytest.approx(fold, rel=1e-9)

@@ -28,13 +28,13 @@ def kernel(function: Callable[..., Any]) -> Any:
     """Compile a kernel, free of the interpreter's lock, and outdate its cached code when a kernel it may use changes.
 
     Numba looks only at the file of the function itself, and would go on using machine code that contains the
-    former version of a kernel from another file. The exact solver uses no other folder; all else may use both.
+    former version of a kernel from another file. The exact solver uses no other folder; all else may use all.
     """
     dispatcher = njit(cache=True, error_model="numpy", nogil=True)(function)
     cache_file = getattr(getattr(dispatcher, "_cache", None), "_cache_file", None)  # absent with the compiler off
     if cache_file is not None:
         is_exact = function.__module__.startswith("pendular.exact")
-        cache_file._source_stamp = _stamp_of("exact") if is_exact else _stamp_of("exact", "laws")
+        cache_file._source_stamp = _stamp_of("exact") if is_exact else _stamp_of("exact", "laws", "table")
     return dispatcher
 
 

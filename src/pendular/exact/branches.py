@@ -117,7 +117,7 @@ def begin(curve: Curve) -> Walk:
 
 
 @kernel
-def _force(z: Vector) -> float:
+def force_of(z: Vector) -> float:
     """λ = Y cos φ + HY²/2 in the middle of the arc."""
     radius = math.exp(z[0])
     return radius * (math.cos(z[1]) + 0.5 * z[3] * math.exp(z[0] - z[2]))
@@ -126,7 +126,7 @@ def _force(z: Vector) -> float:
 @kernel
 def _neck_radius(z: Vector) -> float:
     """Smallest radius of the whole surface, Y0 = 2λ/(1 + q); NaN for a repulsive one, which has no neck."""
-    force = _force(z)
+    force = force_of(z)
     if force < 0.0:
         return math.nan
     h = z[3] * math.exp(z[0] - z[2])
@@ -137,7 +137,7 @@ def _neck_radius(z: Vector) -> float:
 @kernel
 def _has_neck_inside(z: Vector) -> bool:
     """Whether the phase of a neck (0 modulo 2π) lies between the two ends of an attractive bridge."""
-    if not _force(z) > 0.0:
+    if not force_of(z) > 0.0:
         return False
     y, slope, phase = math.exp(z[0] - z[2]), z[1], abs(z[3])
     if phase < 1e-8:
@@ -226,7 +226,7 @@ def path_state(z: Vector, tangent: Vector, curve: Curve, before_fold: bool) -> S
     middle_radius, slope, half_length, phase = math.exp(z[0]), z[1], math.exp(z[2]), z[3]
     curvature = phase / half_length
     square = middle_radius * middle_radius
-    force = _force(z)
+    force = force_of(z)
     force_rates = np.array(
         [
             middle_radius * math.cos(slope) + curvature * square,

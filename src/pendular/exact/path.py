@@ -198,12 +198,12 @@ def walk(start: Vector, tangent: Vector, curve: Curve, target: float, going: flo
         if np.dot(turned, tangent) < _LEAST_COSINE or hand_ahead != hand:
             step *= 0.5
             continue
-        if pitchfork and _meets_pitchfork(z, following, curve.solids):
-            point, located = _locate(PITCHFORK, z, tangent, step, curve, target)
+        slope = np.dot(ahead.rates[curve.driven], turned)
+        event, point = _event_within(z, tangent, step, following, slope, curve, target, going)
+        end = following if event == ABSENT else point  # what comes after the fold is on the other branch
+        if pitchfork and event != LOST and _meets_pitchfork(z, end, curve.solids):
+            point, located = _locate(PITCHFORK, z, tangent, np.dot(tangent, end - z), curve, target)
             event = PITCHFORK if located else LOST
-        else:
-            slope = np.dot(ahead.rates[curve.driven], turned)
-            event, point = _event_within(z, tangent, step, following, slope, curve, target, going)
         if event == LOST:
             step *= 0.5
         elif event != ABSENT:
