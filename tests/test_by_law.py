@@ -1,5 +1,6 @@
-"""Laws asked through the public face: reduction, warnings, refusals."""
+"""Laws asked through the public face: reduction, the other control, warnings, refusals."""
 
+import re
 import warnings
 
 import numpy as np
@@ -9,10 +10,19 @@ import pendular as pl
 from pendular.laws import force_star, rupture_star
 
 WATER = pl.Liquid(surface_tension=0.0728)
+UNIT = pl.Liquid(surface_tension=1.0)
 GRAINS = pl.Pair(radius=(40e-6, 100e-6), contact_angle=np.deg2rad(20))
-SUCTION = 5e5
-FORCE_LAWS = [name for name, law in pl.laws.items() if "force" in law.gives and law.control == "suction"]
-SUCTION_LAWS = [name for name, law in pl.laws.items() if law.control == "suction"]
+EQUAL_DRY = pl.Pair(radius=50e-6, contact_angle=0.0)
+# Of the same order: H* about 400, V* about 1e-3.
+CONTROLS = {"suction": 5e5, "volume": 2e-16}
+OTHER = {"suction": "volume", "volume": "suction"}
+LAWS = list(pl.laws.values())
+FORCE = [law for law in LAWS if "force" in law.gives]
+RUPTURE = [law for law in LAWS if "rupture" in law.gives]
+
+
+def by_name(law):
+    return law.name
 
 
 @pytest.fixture(autouse=True)
@@ -22,55 +32,195 @@ def _outside_is_no_matter():
         yield
 
 
-def reduced(pair, suction):
-    """Reduced suction, angles and κ of a pair, written out again."""
-    first, second = 40e-6, 100e-6
+def reduced(pair, control, value):
+    """Derjaguin radius, reduced control, angles and κ of a pair, written out again."""
+    first, second = (float(radius) for radius in pair.radii)
     mean = 2.0 * first * second / (first + second)
-    return mean, suction * mean / 0.0728, *pair.contact_angles, mean / first, mean / second
+    star = value * mean / 0.0728 if control == "suction" else value / mean**3
+    return mean, star, *pair.contact_angles, mean / first, mean / second
 
 
-@pytest.mark.parametrize("name", FORCE_LAWS)
-def test_force_is_scaled_by_the_derjaguin_radius(name):
-    mean, *reduced_pair = reduced(GRAINS, SUCTION)
-    gaps = np.array([0.0, 1e-8, 1e-5])
-    b = pl.bridge(GRAINS, gaps, suction=SUCTION, liquid=WATER, method=name)
-    expected = 2.0 * np.pi * 0.0728 * mean * force_star(name, gaps / mean, *reduced_pair)
-    assert b.force == pytest.approx(expected, rel=1e-12)
-    assert list(b.exists) == [True, True, False]
-    assert b.force[-1] == 0.0
-    assert np.isnan(b.separation[-1])
+def grains_for(law):
+    """Grains of which the law knows something; that of Mikami has no force where there is an angle."""
+    return EQUAL_DRY if law.name == "mikami1998" else GRAINS
 
 
-@pytest.mark.parametrize("name", SUCTION_LAWS)
-def test_rupture_is_scaled_by_the_derjaguin_radius(name):
-    mean, *reduced_pair = reduced(GRAINS, SUCTION)
-    r = pl.rupture(GRAINS, suction=SUCTION, liquid=WATER, method=name)
-    assert r.separation == pytest.approx(float(mean * rupture_star(name, *reduced_pair)), rel=1e-12)
-    assert np.isnan(r.volume)
+@pytest.mark.parametrize("law", FORCE, ids=by_name)
+def test_force_is_scaled_by_the_derjaguin_radius(law):
+    pair, value = grains_for(law), CONTROLS[law.control]
+    mean, *star = reduced(pair, law.control, value)
+    gaps = np.array([0.0, 1e-8, 1e-5, 3e-5])
+    b = pl.bridge(pair, gaps, **{law.control: value}, liquid=WATER, method=law.name)
+    expected = 2.0 * np.pi * 0.0728 * mean * force_star(law.name, gaps / mean, *star)
+    assert b.force == pytest.approx(expected, rel=1e-12, nan_ok=True)
+    if "rupture" in law.gives:
+        assert list(b.exists[[0, 1, 3]]) == [True, True, False]
+        assert b.force[-1] == 0.0
+        assert np.isnan(b.separation[-1])
+    else:
+        assert b.exists.all()
 
 
-@pytest.mark.parametrize("name", FORCE_LAWS)
+@pytest.mark.parametrize("law", RUPTURE, ids=by_name)
+def test_rupture_is_scaled_by_the_derjaguin_radius(law):
+    mean, *star = reduced(GRAINS, law.control, CONTROLS[law.control])
+    r = pl.rupture(GRAINS, **{law.control: CONTROLS[law.control]}, liquid=WATER, method=law.name)
+    assert r.separation == pytest.approx(float(mean * rupture_star(law.name, *star)), rel=1e-12)
+    assert np.isnan(getattr(r, OTHER[law.control]))
+
+
+@pytest.mark.parametrize("law", FORCE, ids=by_name)
+@pytest.mark.parametrize("length", [1e-9, 1e-3, 1e3])
+def test_units_scale(law, length):
+    """Lengths times a, surface tension times b: force times ab."""
+    angle, tension = (0.0 if law.name == "mikami1998" else 0.3), 0.05
+    held = 300.0 if law.control == "suction" else 2e-3
+    gaps = np.array([0.0, 1e-3, 2e-3, 0.5])
+    small = pl.bridge(pl.Pair((1.0, 2.0), angle), gaps, **{law.control: held}, liquid=UNIT, method=law.name)
+    unit = tension / length if law.control == "suction" else length**3
+    large = pl.bridge(
+        pl.Pair((length, 2.0 * length), angle),
+        gaps * length,
+        **{law.control: held * unit},
+        liquid=pl.Liquid(surface_tension=tension),
+        method=law.name,
+    )
+    assert large.force == pytest.approx(tension * length * small.force, rel=1e-11, nan_ok=True)
+    np.testing.assert_array_equal(large.exists, small.exists)
+    assert small.force[0] > 0.0
+
+
+@pytest.mark.parametrize("law", FORCE, ids=by_name)
+@pytest.mark.parametrize("control", CONTROLS)
+def test_exchange_of_the_solids_changes_nothing(law, control):
+    angles = (0.2, 0.7) if law.angle_rule.startswith(("any", "mean")) else (0.0, 0.0)
+    for gap in (0.0, 2e-7):
+        here, there = (
+            pl.bridge(pl.Pair(radii, pair_angles), gap, **{control: CONTROLS[control]}, liquid=WATER, method=law.name)
+            for radii, pair_angles in (((4e-5, 1e-4), angles), ((1e-4, 4e-5), angles[::-1]))
+        )
+        assert there.force == pytest.approx(here.force, rel=1e-10, nan_ok=True)
+        assert there.exists
+        assert here.exists
+
+
+@pytest.mark.parametrize("name", [law.name for law in FORCE if law.control == "suction"])
 def test_laws_approach_the_exact_force(name):
     pair = pl.Pair(radius=1e-3, contact_angle=np.deg2rad(20))  # H* = 1e6
     exact = pl.bridge(pair, 0.0, suction=7.28e7, liquid=WATER).force
     assert pl.bridge(pair, 0.0, suction=7.28e7, liquid=WATER, method=name).force == pytest.approx(exact, rel=1e-2)
 
 
-def test_humidity_is_a_suction_for_a_law_too():
+@pytest.mark.parametrize("name", ["asymptotic", "bagheri2024"])
+def test_humidity_is_a_suction_for_a_law_too(name):
     water = pl.Liquid.water()
-    force = pl.bridge(GRAINS, 0.0, humidity=0.95, liquid=water, method="asymptotic").force
+    force = pl.bridge(EQUAL_DRY, 0.0, humidity=0.95, liquid=water, method=name).force
     suction = pl.suction_from_humidity(0.95, water)
-    assert force == pl.bridge(GRAINS, 0.0, suction=suction, liquid=water, method="asymptotic").force
+    assert force == pl.bridge(EQUAL_DRY, 0.0, suction=suction, liquid=water, method=name).force
+    assert force > 0.0
 
 
-def test_outside_the_published_range_one_warning_a_call():
+# --- the other control ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("law", FORCE, ids=by_name)
+def test_under_the_other_control_the_law_is_asked_with_the_exact_bridge(law):
+    given, pair = OTHER[law.control], grains_for(law)
+    held = {given: CONTROLS[given]}
+    gaps = np.array([[0.0], [3e-8]])
+    exact = pl.bridge(pair, gaps, **held, liquid=WATER)
+    b = pl.bridge(pair, gaps, **held, liquid=WATER, method=law.name)
+    mean, star, *solids = reduced(pair, law.control, getattr(exact, law.control))
+    expected = 2.0 * np.pi * 0.0728 * mean * force_star(law.name, gaps / mean, star, *solids)
+    assert b.force == pytest.approx(expected, rel=1e-12, nan_ok=True)
+    assert b.exists.tolist() == [[True], [True]]
+    assert getattr(b, given).tolist() == [[pytest.approx(CONTROLS[given])]] * 2
+    assert b.force[0, 0] == pytest.approx(exact.force[0, 0], rel=0.25)
+
+
+def test_existence_is_then_that_of_the_exact_bridge():
+    fold = pl.rupture(EQUAL_DRY, suction=5e5, liquid=WATER).separation
+    gaps = fold * np.array([1.0 - 1e-6, 1.0 + 1e-6])
+    b = pl.bridge(EQUAL_DRY, gaps, suction=5e5, liquid=WATER, method="soulie2006")
+    assert b.exists.tolist() == [True, False]
+    assert b.force[0] > 0.0
+    assert b.force[1] == 0.0
+    assert np.isnan(b.separation[1])
+
+
+def test_a_law_that_ends_early_gives_no_force_to_a_bridge_that_exists():
+    pair, suction = pl.Pair(radius=1.0, contact_angle=np.deg2rad(40)), 10.0
+    separation = 0.9 * pl.rupture(pair, suction=suction, liquid=UNIT).separation
+    volume = pl.bridge(pair, separation, suction=suction, liquid=UNIT).volume
+    b = pl.bridge(pair, separation, volume=volume, liquid=UNIT, method="toroidal2020")
+    assert b.exists
+    assert b.force == 0.0
+
+
+def test_law_at_constant_suction_knows_only_what_its_suction_holds():
+    """Half-way to its rupture a bridge of this volume passes the fold of its suction; the law knows the thicker one."""
+    limit = pl.rupture(EQUAL_DRY, volume=1e-16, liquid=WATER).separation
+    fractions = np.array([0.4, 0.5, 0.9, 1.1])
+    b = pl.bridge(EQUAL_DRY, fractions * limit, volume=1e-16, liquid=WATER, method="asymptotic")
+    exact = pl.bridge(EQUAL_DRY, fractions * limit, volume=1e-16, liquid=WATER)
+    assert b.force[0] == pytest.approx(exact.force[0], rel=0.01)
+    assert np.isnan(b.force[1:3]).all()
+    assert b.force[3] == 0.0
+    assert b.exists.tolist() == [True, True, True, False]
+
+
+def test_law_at_constant_suction_has_no_word_for_pressure():
+    pair = pl.Pair(radius=50e-6, contact_angle=np.deg2rad(75))
+    exact = pl.bridge(pair, 20e-6, volume=2e-14, liquid=WATER)
+    assert exact.suction < 0.0
+    for name in ("zhao2020", "asymptotic", "pendular2026"):
+        b = pl.bridge(pair, 20e-6, volume=2e-14, liquid=WATER, method=name)
+        assert np.isnan(b.force)
+        assert b.exists
+
+
+@pytest.mark.parametrize("law", RUPTURE, ids=by_name)
+def test_rupture_belongs_to_one_control(law):
+    given = OTHER[law.control]
+    with pytest.raises(
+        ValueError, match=f"^method: '{law.name}' gives the rupture distance at constant {law.control}, not at constant"
+    ):
+        pl.rupture(GRAINS, **{given: CONTROLS[given]}, liquid=WATER, method=law.name)
+
+
+# --- warnings and refusals --------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("ask", "start"),
+    [
+        (
+            lambda: pl.bridge(GRAINS, [0.0, 1e-9], suction=[1.0, 2.0], liquid=WATER, method="zhao2020"),
+            "suction_star 0.00078",
+        ),
+        (lambda: pl.bridge(GRAINS, 0.0, volume=[1e-20, 1e-21], liquid=WATER, method="willett2000"), "volume_star 5.3"),
+        (lambda: pl.bridge(GRAINS, 0.0, suction=[1e7, 1e8], liquid=WATER, method="willett2000"), "volume_star "),
+        (lambda: pl.rupture(GRAINS, volume=[1e-20, 1e-21], liquid=WATER, method="willett2000"), "volume_star 5.3"),
+        (
+            lambda: pl.bridge(GRAINS, [1e-9, 2e-9], suction=1e9, liquid=WATER, method="contact_limit"),
+            "separation_star ",
+        ),
+    ],
+)
+def test_outside_the_range_one_warning_a_call(ask, start):
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        b = pl.bridge(GRAINS, [0.0, 1e-9], suction=[1.0, 2.0], liquid=WATER, method="zhao2020")
+        ask()
     assert [warning.category for warning in caught] == [pl.RangeWarning]
-    assert str(caught[0].message).startswith("zhao2020: suction_star 0.000784")
+    assert re.match(rf"\w+: {start}\S* is outside the range ", str(caught[0].message))
     assert caught[0].filename == __file__
-    assert b.force.shape == (2,)
+
+
+def test_the_range_is_that_of_the_control_of_the_law():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        pl.bridge(GRAINS, [0.0, 1e-9], volume=1e-20, liquid=WATER, method="zhao2020")
+        pl.bridge(GRAINS, [0.0, 1e-9], suction=5e4, liquid=WATER, method="bagheri2024")
 
 
 @pytest.mark.parametrize(
@@ -78,14 +228,16 @@ def test_outside_the_published_range_one_warning_a_call():
     [
         ({"method": "zhao"}, "method: 'zhao' is not one of 'exact', 'dataset', 'zhao2020', "),
         ({"method": "asymptotic_rupture"}, "method: 'asymptotic_rupture' gives no force, only the rupture"),
+        ({"method": "lian1993"}, "method: 'lian1993' gives no force, only the rupture"),
+        ({"method": "deboer2008"}, "method: 'deboer2008' gives no force, only the rupture work"),
         ({"method": "zhao2020", "branch": "unstable"}, "branch: 'unstable' is not one of 'stable'"),
     ],
 )
 def test_refusals(options, message):
-    with pytest.raises(ValueError, match="^" + message.replace("(", r"\(")):
-        pl.bridge(GRAINS, 0.0, suction=SUCTION, liquid=WATER, **options)
+    with pytest.raises(ValueError, match="^" + re.escape(message)):
+        pl.bridge(GRAINS, 0.0, suction=CONTROLS["suction"], liquid=WATER, **options)
 
 
-def test_a_law_has_its_own_control():
-    with pytest.raises(ValueError, match=r"^method: 'zhao2020' is a law at constant suction"):
-        pl.bridge(GRAINS, 0.0, volume=1e-16, liquid=WATER, method="zhao2020")
+def test_a_law_of_the_force_alone_has_no_rupture():
+    with pytest.raises(ValueError, match=r"^method: 'lambert2008' gives no rupture, only the force"):
+        pl.rupture(GRAINS, volume=1e-16, liquid=WATER, method="lambert2008")

@@ -2,11 +2,16 @@
 
 Nothing is shared with the compiled kernels: coefficients stand as decimal strings, roots are found by mpmath, the
 quartic of Zhao, Kruyt and Millet (2020) is derived here by clearing the square root of their Eq. (23), and the
-equilibrium of two half bridges is solved for their contact radii. ``ORACLES[name]`` is the pair (force, rupture) of a
-law, None where the law does not give it, with the arguments of its kernels; NaN where the law has no answer.
+equilibrium of two half bridges is solved for their contact radii. The laws at constant volume stand in
+`volume_laws_mpmath`. ``ORACLES[name]`` holds force, rupture and rupture work of a law, None where the law does not give
+it, with the arguments of its kernels; NaN where the law has no answer.
 """
 
+from typing import Any, NamedTuple
+
 from mpmath import acos, asin, cbrt, cos, diff, exp, findroot, isnan, log, matrix, mp, mpf, nan, pi, sin, sqrt, tan
+
+from oracles.volume_laws_mpmath import FORMULAS, of_kernel_arguments, one_angle
 
 # Zhao et al. (2020), Appendices B and C: rows to be multiplied by (T², T, 1), T = tan θ.
 EQ_37 = (("-0.236", "-0.120", "-1.358"), ("0.239", "0.111", "0.458"))
@@ -17,18 +22,13 @@ ZHAO2020 = {"37": EQ_37, "38": EQ_38, "39": EQ_39, "40": EQ_40}
 
 
 def in_40_digits(function):
-    """Let a law be asked with floats, whose digits are taken as exact."""
-    return mp.workdps(40)(lambda *numbers, **options: function(*map(mpf, numbers), **options))
+    """Let a law be asked with floats, whose digits are taken as exact; None stays None."""
+    return function and mp.workdps(40)(lambda *numbers, **options: function(*map(mpf, numbers), **options))
 
 
 def gorge_force(neck_radius, H):
     """Zhao et al. (2020), Eq. (26)."""
     return neck_radius + H * neck_radius**2 / 2
-
-
-def one_angle(theta1, theta2, kappa1, kappa2):
-    """Contact angle of a law that knows only one, and sizes through the Derjaguin radius only."""
-    return theta1 if theta1 == theta2 else nan
 
 
 # --- zhao2020 ---------------------------------------------------------------------------------------------------------
@@ -215,10 +215,20 @@ def pendular2026(separation, suction, angle1, angle2, kappa1, kappa2):
         return rupture, y_0 + h * y_0**2 / 2
 
 
+class Oracle(NamedTuple):
+    """What a law gives, in 40 digits."""
+
+    force: Any = None
+    rupture: Any = None
+    rupture_work: Any = None
+
+
 ORACLES = {
-    "zhao2020": (in_40_digits(zhao2020_force), in_40_digits(zhao2020_rupture)),
-    "toroidal2020": (in_40_digits(toroidal2020_force), in_40_digits(toroidal2020_rupture)),
-    "asymptotic_rupture": (None, in_40_digits(asymptotic_rupture_rupture)),
-    "pendular2026": (lambda *point: float(pendular2026(*point)[1]), lambda *pair: float(pendular2026(0, *pair)[0])),
-    "asymptotic": (in_40_digits(asymptotic_force), in_40_digits(asymptotic_rupture_of_pair)),
-}
+    "zhao2020": Oracle(in_40_digits(zhao2020_force), in_40_digits(zhao2020_rupture)),
+    "toroidal2020": Oracle(in_40_digits(toroidal2020_force), in_40_digits(toroidal2020_rupture)),
+    "asymptotic_rupture": Oracle(None, in_40_digits(asymptotic_rupture_rupture)),
+    "pendular2026": Oracle(
+        lambda *point: float(pendular2026(*point)[1]), lambda *pair: float(pendular2026(0, *pair)[0])
+    ),
+    "asymptotic": Oracle(in_40_digits(asymptotic_force), in_40_digits(asymptotic_rupture_of_pair)),
+} | {name: Oracle(*(in_40_digits(of_kernel_arguments(name, i)) for i in range(3))) for name in FORMULAS}

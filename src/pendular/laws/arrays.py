@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._jit import in_chunks, kernel
-from ._registry import LAWS, force_star_of, rupture_star_of
+from ._registry import LAWS, force_star_of, rupture_star_of, rupture_work_star_of
 
-__all__ = ["force_star", "rupture_star"]
+__all__ = ["force_star", "rupture_star", "rupture_work_star"]
 
 Array = NDArray[np.float64]
 Operands = tuple[Array, ...]
@@ -33,6 +33,12 @@ def _force_range(code: int, x: Operands, out: Array, start: int, stop: int) -> N
 def _rupture_range(code: int, x: Operands, out: Array, start: int, stop: int) -> None:
     for i in range(start, stop):
         out[i] = rupture_star_of(code, _at(x[0], i), _at(x[1], i), _at(x[2], i), _at(x[3], i), _at(x[4], i))
+
+
+@kernel
+def _rupture_work_range(code: int, x: Operands, out: Array, start: int, stop: int) -> None:
+    for i in range(start, stop):
+        out[i] = rupture_work_star_of(code, _at(x[0], i), _at(x[1], i), _at(x[2], i), _at(x[3], i), _at(x[4], i))
 
 
 def force_star(
@@ -129,10 +135,57 @@ def rupture_star(
     )
 
 
+def rupture_work_star(
+    law: str,
+    control_star: ArrayLike,
+    contact_angle1: ArrayLike,
+    contact_angle2: ArrayLike,
+    kappa1: ArrayLike,
+    kappa2: ArrayLike,
+) -> Array:
+    r"""Rupture work by a published law, on arrays.
+
+    .. math:: W^* = W/(2\pi\gamma\bar R^2)
+
+    Parameters
+    ----------
+    law : str
+        Name in the registry.
+    control_star : array_like
+        Suction times the Derjaguin radius over the surface tension, or liquid volume over its cube, [-].
+    contact_angle1, contact_angle2 : array_like
+        Contact angles, [rad].
+    kappa1, kappa2 : array_like
+        Derjaguin radius over the radius of each solid, [-], 0 for a plane.
+
+    Returns
+    -------
+    ndarray or float
+        Work of the capillary force from contact to rupture, [-], of the common shape; NaN outside the domain of the
+        law.
+
+    Notes
+    -----
+    **Validity.** That of the law; nothing is clamped.
+
+    References
+    ----------
+    .. [1] ``laws[law].reference``.
+
+    Examples
+    --------
+    >>> rupture_work_star("deboer2008", [100.0, 1e4], 0.0, 0.0, 1.0, 1.0)
+    array([0.01  , 0.0001])
+    """
+    return _evaluate(
+        _rupture_work_range, _code(law, "rupture_work"), (control_star, contact_angle1, contact_angle2, kappa1, kappa2)
+    )
+
+
 def _code(law: str, quantity: str) -> int:
     able = [record.name for record in LAWS if quantity in record.gives]
     if law not in able:
-        raise ValueError(f"law is {law!r}, the laws that give the {quantity} are {', '.join(able)}")
+        raise ValueError(f"law is {law!r}, the laws that give the {quantity.replace('_', ' ')} are {', '.join(able)}")
     return _CODES[law]
 
 

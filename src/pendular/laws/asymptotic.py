@@ -279,6 +279,13 @@ LAW = Law(
     reference="derived for this library",
     doi="",
     equations="",
+    formula="""\
+H D(λ) = Σᵢ [sin φᵢ - A(φᵢ)/rᵢ + B(φᵢ)/rᵢ³ - (H/κᵢ)(1 - cos δᵢ)]
+  λ = Yᵢ sin(δᵢ + θᵢ) + H Yᵢ²/2,  Yᵢ = sin δᵢ/κᵢ,  φᵢ = π/2 - δᵢ - θᵢ,  rᵢ = H Yᵢ + cos φᵢ
+  A(φ) = (φ + sin φ cos φ)/2,  B(φ) = sin φ cos³φ/8 + (3/8 - cos²φ/2) A(φ)
+D_c = max D(λ)
+λ = F/(2πγR̄), the larger solution of D(λ) = D
+suction H, gap D, contact radii Yᵢ reduced by R̄ = 2R₁R₂/(R₁+R₂), κᵢ = R̄/Rᵢ, half-filling angles δᵢ, sides i = 1, 2""",
     provenance="derived for this library and compared with exact bridges",
     force_star=force_star,
     rupture_star=rupture_star,

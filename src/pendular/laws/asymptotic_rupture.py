@@ -117,6 +117,11 @@ LAW = Law(
     reference="derived for this library",
     doi="",
     equations="",
+    formula="""\
+H D_c = cos θ₁ + cos θ₂ - 3 A^(2/3) H^(-1/3) + C₃/H
+  C₃ = Σᵢ {sin²θᵢ [κᵢ + Aᵢ/(2A)] + Bᵢ/A},  A = (A₁ + A₂)/2
+  Aᵢ = (φ + sin φ cos φ)/2,  Bᵢ = sin φ cos³φ/8 + (3/8 - cos²φ/2) Aᵢ  at  φ = π/2 - θᵢ
+suction H and gap D_c reduced by R̄ = 2R₁R₂/(R₁+R₂), κᵢ = R̄/Rᵢ, sides i = 1, 2""",
     provenance="derived for this library and compared with exact bridges",
     rupture_star=rupture_star,
 )

@@ -264,6 +264,17 @@ LAW = Law(
     reference="derived for this library",
     doi="",
     equations="",
+    formula="""\
+D_c = 2 A cos θ x³/[1 + k x + k² x² + (k³ - 1 - C) x³ + w x⁴]
+  x = (1 + A H)^(-1/3),  k = 3ρ/2,  ρ = A/cos θ,  w = 9/(16 + 8x) - a₁ (1 - ρ⁵)
+Y_f = A x²/(1 + x + x²) [1 + a₂ (1 - ρ) x²],  m_f = 1 + H Y_f
+D_c - D = (Y0 - Y_f)²/[1 + a₃ (1 - ρ) x³] [1 + 2 m_f/(1 + H Y0)]
+F/(2πγR̄) = Y0 + H Y0²/2
+  C = (ρ/2) Σᵢ [sin²θᵢ (κᵢ + Aᵢ/(2A)) + Bᵢ/A]
+  cos θ = (cos θ₁ + cos θ₂)/2,  A = (A₁ + A₂)/2
+  Aᵢ = (φ + sin φ cos φ)/2,  Bᵢ = sin φ cos³φ/8 + (3/8 - cos²φ/2) Aᵢ  at  φ = π/2 - θᵢ
+a₁ = {}, a₂ = {}, a₃ = {}
+suction H, gap D, neck radius Y0 reduced by R̄ = 2R₁R₂/(R₁+R₂), κᵢ = R̄/Rᵢ, sides i = 1, 2""".format(*COEFFICIENTS),
     provenance="exact limits derived for this library; three numbers fitted to exact bridges of equal spheres",
     force_star=force_star,
     rupture_star=rupture_star,

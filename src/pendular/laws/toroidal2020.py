@@ -456,6 +456,19 @@ LAW = Law(
     reference="C.-F. Zhao, N. P. Kruyt, O. Millet, Powder Technology 360 (2020) 622-634",
     doi="",
     equations="17-28, 34-36",
+    formula="""\
+2S_c = (2/H) (1/r) {1 - [(27/32 + (27/16) T + (81/64) T²)/H]^(1/3)}     (25, 35, 36)
+S = (r+T) Y_c - Y_c²/2 - (r+T) Y0                                       (21, 23)
+Y0 = -1/H + √(2 Y_c (T + Y_c)/(H r) + 1/H² + Y_c²)                      (22)
+Y_c = -(2/(3 K3)) √(K2² - 3 K1 K3) cos φ - K2/(3 K3)                    (28)
+cos 3φ = (27 K0 K3² - 9 K1 K2 K3 + 2 K2³)/(2 √(-(3 K1 K3 - K2²)³))
+K3 Y_c³ + K2 Y_c² + K1 Y_c + K0 = 0                                     (27)
+  K3 = -4 H (T² - r T + 1)                                              (34)
+  K2 = (8 H S T² + 4 H S + 4 T) r - 8 H S T³ - 8 H S T - 4 T² - 12
+  K1 = (8 H S T + 8) r + (-8 T² - 8) S H - 8 T
+  K0 = -4 S {[(-2 H T² - H) S - 2 T] r + 2 (T² + 1)(H S T + 1)}
+F/(2πγR̄) = Y0 + H Y0²/2                                                 (26)
+T = tan θ, r = √(T²+1); suction H, half gap S, neck and contact radius Y0, Y_c reduced by R̄ = 2R₁R₂/(R₁+R₂)""",
     provenance="transcribed from the article and compared with its text",
     errata=(
         "The coefficient of H^(-1/3) in Eq. (25) is that of the torus; the exact one is larger by a factor of 1.35 at "

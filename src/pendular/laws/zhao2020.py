@@ -241,6 +241,23 @@ LAW = Law(
     reference="C.-F. Zhao, N. P. Kruyt, O. Millet, Powder Technology 360 (2020) 622-634",
     doi="",
     equations="26, 29-32, 37-40",
+    formula="""\
+2S_c = (2/H) (1/√(T²+1)) [1 + c1 H^(-1/3) + c2 H^(-2/3)]                (29)
+  c1 = -0.236 T² - 0.120 T - 1.358,  c2 = 0.239 T² + 0.111 T + 0.458    (37)
+Y0(S=0) = √(2/H) [p1 exp(-p2/√H) + p3]                                  (30)
+  p1 = -0.151 T² - 0.015 T + 0.850                                      (38)
+  p2 =  0.302 T² + 0.038 T + 1.217
+  p3 =  0.012 T² - 0.017 T + 0.152
+Y0/Y0(S=0) = 1 + A [√(1 - S/S_c) - 1] + B S/S_c                         (31)
+A = a1 ln²H + a2 ln H + a3,  B = b1 ln²H + b2 ln H + b3                 (32)
+  a1 = -0.0015 T² + 0.0001 T + 0.0019                                   (39)
+  a2 =  0.0347 T² - 0.0142 T + 0.0021
+  a3 = -0.1165 T² + 0.0311 T + 0.6087
+  b1 = -0.0016 T² + 0.0006 T + 0.0026                                   (40)
+  b2 =  0.0330 T² - 0.0201 T - 0.0365
+  b3 = -0.0949 T² + 0.0674 T + 0.0088
+F/(2πγR̄) = Y0 + H Y0²/2                                                 (26)
+T = tan θ; suction H, half gap S and neck radius Y0 reduced by R̄ = 2R₁R₂/(R₁+R₂)""",
     provenance="transcribed from the article and compared with its text",
     errata=(
         "Eq. (29) is far outside its stated 2.5 % near suction_star = 1 and just outside the stated 0.5 % near 1e3.",
