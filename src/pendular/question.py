@@ -1,6 +1,7 @@
 """The options that all commands share, read into what they ask: a pair, a liquid, and what is held constant."""
 
 import math
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
@@ -11,14 +12,21 @@ from .units import read, read_angle, read_fraction, show
 
 # NumPy and all that needs it are imported by those who use it: the help is shown without.
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from numpy.typing import ArrayLike
+
     from .bridges import Bridge, Pair
     from .liquid import Liquid
 
-__all__ = ["Question", "read_question"]
+__all__ = ["Question", "in_terms_of_options", "read_form", "read_question"]
 
 _PLANE = ("inf", "plane", "plate")
 _ROOM_TEMPERATURE = "20degC"
 _FREEZING_POINT = 273.15  # 0 °C, [K]
+
+# Where the library calls an argument otherwise than the option, and what it advises to a programmer.
+_OPTIONS = {"radius[0]": "radius", "radius[1]": "radius2", "surface_tension": "surface-tension", "name": "liquid"}
+_ADVICE = re.compile(r"; give (it|its numbers) to Liquid\(\.\.\.\)")
 
 
 class Question(NamedTuple):
@@ -32,9 +40,35 @@ class Question(NamedTuple):
     form: str  # of the answer: table, json or csv
     picture: Path | None
 
-    def put_to(self, function: "Callable[..., Bridge]", *args: float, **options: Any) -> "Bridge":
+    def put_to(self, function: "Callable[..., Bridge]", *args: "ArrayLike", **options: Any) -> "Bridge":
         """Ask one of the three functions of the library."""
         return function(self.pair, *args, **self.control, liquid=self.liquid, **options)
+
+    def instability(self, end: "Bridge") -> "Bridge | None":
+        """Where the bridge loses its stability, if that is before the fold `end`: at constant volume only."""
+        from .bridges import rupture
+
+        if "volume" not in self.control:
+            return None
+        first = self.put_to(rupture, limit="stability")
+        # Where nothing comes first both are the same point, found along two ways.
+        return first if first.separation < end.separation * (1.0 - 1e-9) else None
+
+    def draw(self, end: "Bridge", state: "Bridge | None" = None, separation: float = 0.0) -> "Figure":
+        """Picture of the pair and its force curve, with the state if there is one, else as the pair ruptures."""
+        from .bridges import curve
+        from .plot import figure
+
+        return figure(
+            self.pair,
+            state,
+            self.put_to(curve),
+            end,
+            separation=separation,
+            instability=self.instability(end),
+            title=self.title,
+            subtitle=self.subtitle,
+        )
 
 
 def _text(help_text: str, kind: str) -> Any:
@@ -55,16 +89,13 @@ def read_question(
     as_json: Annotated[bool, Option("--json", help="Print JSON, in SI units.")] = False,
     as_csv: Annotated[bool, Option("--csv", help="Print CSV, in SI units.")] = False,
     plot: Annotated[
-        Path | None, Option(help="Draw pair and force curve: bridge.svg, .png or .pdf.", metavar="FILE")
+        Path | None, Option(help="Draw a picture of the answer: bridge.svg, .png or .pdf.", metavar="FILE")
     ] = None,
 ) -> Question:
     """Read the shared options, with one line of error for what cannot be meant."""
     from .bridges import Pair
 
-    if as_json and as_csv:
-        raise ValueError("json: given together with csv; one of the two is needed")
-    if plot is not None:
-        _check_suffix(plot)
+    form = read_form(as_json, as_csv, plot)
     radii = _radius("radius", radius), _radius("radius2", radius2 or radius)
     degrees = _degrees("contact-angle", contact_angle), _degrees("contact-angle2", contact_angle2 or contact_angle)
     control = _control(suction, volume, humidity)
@@ -77,16 +108,33 @@ def read_question(
         control=control,
         title=_describe_solids(radii, degrees),
         subtitle=f"{_describe_liquid(wetting)}  ·  {_describe_control(control)}",
-        form="json" if as_json else "csv" if as_csv else "table",
+        form=form,
         picture=plot,
     )
 
 
-def _check_suffix(plot: Path) -> None:
-    from .plot import FORMATS
+def in_terms_of_options(message: str) -> str:
+    """Message of the library as one who knows only the options understands it.
 
-    if plot.suffix.lower() not in FORMATS:
-        raise ValueError(f"plot: '{plot}' does not end in one of {', '.join(FORMATS)}")
+    Examples
+    --------
+    >>> in_terms_of_options("radius[1]: -1.0 m is not > 0")
+    'radius2: -1.0 m is not > 0'
+    """
+    name, colon, reason = message.partition(": ")
+    return _OPTIONS.get(name, name) + colon + _ADVICE.sub("", reason)
+
+
+def read_form(as_json: bool, as_csv: bool, plot: Path | None) -> str:
+    """Form of the answer: table, json or csv; a picture must be of a known format."""
+    if as_json and as_csv:
+        raise ValueError("json: given together with csv; one of the two is needed")
+    if plot is not None:
+        from .plot import FORMATS
+
+        if plot.suffix.lower() not in FORMATS:
+            raise ValueError(f"plot: '{plot}' does not end in one of {', '.join(FORMATS)}")
+    return "json" if as_json else "csv" if as_csv else "table"
 
 
 def _radius(name: str, text: str) -> float:

@@ -28,6 +28,7 @@ __all__ = [
     "json_text",
     "plain_fields",
     "rupture_table",
+    "state_rows",
     "state_table",
 ]
 
@@ -44,6 +45,8 @@ _CURVE_FIELDS = ("separation", "force", "volume", "suction", "neck_radius")
 _BUT_SEPARATION = ["force", *(name for name in UNITS if name not in ("separation", "force"))]
 _WITHOUT_BRIDGE = ["force", "exists"]
 _MOST_ROWS = 24  # of a curve in a table for people
+
+Row = tuple[str, str, str]  # name, value with unit, meaning
 
 
 class Column(NamedTuple):
@@ -156,30 +159,50 @@ def state_table(bridge: Bridge, more: Mapping[str, tuple[str, str]]) -> Table:
     -------
     rich.table.Table
     """
-    return _table_of_rows(["separation", *_BUT_SEPARATION] if bridge.exists else _WITHOUT_BRIDGE, bridge, more)
+    return _table_of_rows(state_rows(bridge, more))
+
+
+def state_rows(bridge: Bridge, more: Mapping[str, tuple[str, str]]) -> list[Row]:
+    """Rows of the table of one bridge, as `state_table`: name, value with unit, meaning.
+
+    Examples
+    --------
+    >>> import pendular as pl
+    >>> grains, water = pl.Pair(radius=50e-6, contact_angle=0.0), pl.Liquid(surface_tension=0.0728)
+    >>> state_rows(pl.bridge(grains, 1e-6, suction=20e3, liquid=water), {})[0]
+    ('separation', '1 µm', 'whole gap, surface to surface')
+    """
+    return _rows(["separation", *_BUT_SEPARATION] if bridge.exists else _WITHOUT_BRIDGE, bridge, more)
 
 
 def rupture_table(bridge: Bridge, more: Mapping[str, tuple[str, str]]) -> Table:
     """Table of a bridge at its fold, as `state_table`; its stiffness is beyond all numbers there."""
     if not bridge.exists:
-        return _table_of_rows(_WITHOUT_BRIDGE, bridge, {})
+        return _table_of_rows(_rows(_WITHOUT_BRIDGE, bridge, {}))
     distance = {"rupture distance": (show(float(bridge.separation), "m"), "separation at which the bridge breaks")}
-    return _table_of_rows([name for name in _BUT_SEPARATION if name != "stiffness"], bridge, {**distance, **more})
+    names = [name for name in _BUT_SEPARATION if name != "stiffness"]
+    return _table_of_rows(_rows(names, bridge, {**distance, **more}))
 
 
-def _table_of_rows(names: Iterable[str], bridge: Bridge, more: Mapping[str, tuple[str, str]]) -> Table:
+def _rows(names: Iterable[str], bridge: Bridge, more: Mapping[str, tuple[str, str]]) -> list[Row]:
+    meanings = {name: meaning for name, _, meaning in FIELDS}
+    rows = []
+    for name in names:
+        rows.append((name.replace("_", " "), _in_words(name, getattr(bridge, name)), meanings[name]))
+        if name == "force":
+            rows += [(extra, words, meaning) for extra, (words, meaning) in more.items()]
+    return rows
+
+
+def _table_of_rows(rows: Iterable[Row]) -> Table:
     from rich.table import Table
 
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), show_header=False)
     table.add_column(style="bold", no_wrap=True)
     table.add_column(no_wrap=True)
     table.add_column(style="dim")
-    meanings = {name: meaning for name, _, meaning in FIELDS}
-    for name in names:
-        table.add_row(name.replace("_", " "), _in_words(name, getattr(bridge, name)), meanings[name])
-        if name == "force":
-            for extra, (words, meaning) in more.items():
-                table.add_row(extra, words, meaning)
+    for row in rows:
+        table.add_row(*row)
     return table
 
 

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from ..colours import FAINT, GRAIN, HAIR, INK
 from . import sample, style
 from .geometry import geometry
 from .style import FORCE, PART, PRODUCT, SEPARATION, SUCTION
@@ -41,7 +42,7 @@ def closure() -> Figure:
     figure, row = style.panels(["θ = 0°", "θ = 40°"], "$Q = Y_0/Y_c$", "$P = |X_c|/Y_c$")
     suctions = (1e4, 1e5, 1e6)
     for axes, degrees in zip(row, (0.0, 40.0), strict=True):
-        axes.plot([0.0, 1.0], sample.torus_line(np.array([0.0, 1.0]), degrees), color=style.INK, lw=1.3, zorder=4)
+        axes.plot([0.0, 1.0], sample.torus_line(np.array([0.0, 1.0]), degrees), color=INK, lw=1.3, zorder=4)
         for case, suction in enumerate(suctions):
             states, fold = sample.all_states(degrees, suction=suction, points=81)
             p, q = sample.scaled_shape(states)
@@ -69,11 +70,11 @@ def _enlarge_stable(axes: Axes, degrees: float, suctions: Sequence[float]) -> No
         style.point(card, q[fold], p[fold], "rupture" if case == 0 else "", (8, 6))
         if case == 0:
             low = 1.0 - 1.25 * (1.0 - q[fold])
-    card.plot([0.0, 1.0], sample.torus_line(np.array([0.0, 1.0]), degrees), color=style.INK, lw=1.3, zorder=4)
+    card.plot([0.0, 1.0], sample.torus_line(np.array([0.0, 1.0]), degrees), color=INK, lw=1.3, zorder=4)
     card.set(xlim=(low, 1.0), ylim=(0.0, sample.torus_line(low, degrees)))
-    card.tick_params(labelsize=7, labelcolor=style.FAINT, color=style.HAIR, length=2)
+    card.tick_params(labelsize=7, labelcolor=FAINT, color=HAIR, length=2)
     card.locator_params(nbins=4)
-    card.spines[:].set(color=style.HAIR, lw=0.6)
+    card.spines[:].set(color=HAIR, lw=0.6)
 
 
 def torus_rupture() -> Figure:
@@ -99,8 +100,8 @@ def fitted_rupture() -> Figure:
     """Fig. 5: fitted rupture distance."""
     figure = _rupture_by_angle("zhao2020", "Eq. (29)", 1.0)
     axes = figure.axes[0]
-    axes.axvspan(1.0, 15.0, color=style.GRAIN, lw=0, zorder=0)
-    axes.text(1.2, 1.9, "range of Gras et al.\n$H^* \\leq 15$", size=9, color=style.FAINT, va="top")
+    axes.axvspan(1.0, 15.0, color=GRAIN, lw=0, zorder=0)
+    axes.text(1.2, 1.9, "range of Gras et al.\n$H^* \\leq 15$", size=9, color=FAINT, va="top")
     return figure
 
 
@@ -153,7 +154,7 @@ def rupture_by_ratio() -> Figure:
         few, many = sample.decades(low, 1e8, 0.1), sample.decades(low, 1e8, 1.0)
         for case, ratio in enumerate(sample.RATIOS):
             style.marks(axes, few, few * sample.rupture_distance(few, 40.0, ratio), case, size=8.5 - 2.0 * case)
-        axes.plot(many, many * sample.law_rupture(law, many, 40.0), color=style.INK, lw=1.5, zorder=2)
+        axes.plot(many, many * sample.law_rupture(law, many, 40.0), color=INK, lw=1.5, zorder=2)
         style.key(axes, map(_ratio, sample.RATIOS), [_EXACT, ("-", name)], "lower right")
     return figure
 
@@ -168,7 +169,7 @@ def force_by_ratio() -> Figure:
                 _exact_force(axes, case, suction, degrees, ratio, size=8.5 - 2.0 * case)
             end = sample.law_rupture(law, suction, degrees)
             gaps, forces = 0.5 * _FINE * end, sample.law_force(law, _FINE * end, suction, degrees)
-            axes.plot(gaps, forces, color=style.INK, lw=1.4, zorder=4)
+            axes.plot(gaps, forces, color=INK, lw=1.4, zorder=4)
             axes.annotate(
                 _angle(degrees),
                 (gaps[80], forces[80]),
@@ -176,7 +177,7 @@ def force_by_ratio() -> Figure:
                 textcoords="offset points",
                 ha="right",
                 size=9,
-                color=style.INK,
+                color=INK,
             )
         _from_zero(axes)
         style.key(axes, map(_ratio, sample.RATIOS), [_EXACT, ("-", name)])

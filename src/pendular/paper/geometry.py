@@ -5,8 +5,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc
 
+from ..colours import ACCENT, GRAIN, GRAIN_EDGE, HAIR, INK, LIQUID
 from . import sample
-from .style import ACCENT, COLOURS, GRAIN, GRAIN_EDGE, HAIR, INK, LIQUID
+from .style import COLOURS
 
 _RATIO, _DEGREES, _VOLUME, _GAP = 1.35, 20.0, 0.35, 0.42
 Point = tuple[float, float]

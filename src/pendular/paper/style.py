@@ -12,12 +12,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
+from ..colours import ACCENT, FAINT, HAIR, INK
+
 Floats = NDArray[np.float64]
 Place = Literal["best", "lower left", "lower right", "center right", "upper right"]
 
-INK, FAINT, HAIR = "#22303c", "#5f6b75", "#9aa4ac"
-LIQUID, GRAIN, GRAIN_EDGE = "#b3d4ea", "#eee9df", "#a99f8d"
-ACCENT = "#c2452d"
 COLOURS = ("#1d6496", "#c2452d", "#8a6d1f", "#5b4a91")
 MARKS = ("o", "s", "^", "D")
 _PANEL = (4.5, 3.7)  # in
