@@ -1,0 +1,238 @@
+"""All laws beside the exact solution, for one pair of solids at one control."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .._check import in_range, quantity
+from ..bridges import bridge, rupture
+from ..laws import Law, force_star, laws, rupture_star, rupture_work_star
+from ..liquid import Liquid
+from ..pair import Pair
+from ..problem import Control, control_of
+from .domain import outside_range, why_silent
+from .sample import ControlName, rupture_work
+
+__all__ = ["MARKS", "UP_TO", "Comparison", "LawAnswer", "compare"]
+
+Floats = NDArray[np.float64]
+
+MARKS = (0.0, 0.5, 0.9)  # D/D_c at which errors are told
+UP_TO = 0.9  # D/D_c; nearer to rupture a relative error says how well the law meets the rupture distance
+
+_FEWEST = 5
+_SAME = 1e-6  # by how much two answers for one state may differ
+
+
+class LawAnswer(NamedTuple):
+    """What a law says of a pair, beside the exact solution; NaN where it says nothing.
+
+    Errors are relative, (law - exact)/exact; -1 where the law has no bridge any more.
+    """
+
+    name: str
+    converted: bool  # a law of the other control, asked with the exact volume or suction of each state
+    force: Floats  # at the separations of the comparison, [N]
+    error: Floats
+    error_at_marks: tuple[float, ...]  # at contact, and at 0.5 and 0.9 of the rupture distance
+    largest_error: float  # without its sign, up to 0.9 of the rupture distance
+    answered_to: float  # D/D_c up to which the law says something, from contact on
+    rupture_separation: float  # [m]; known only under the law's own control, as all that follows
+    rupture_error: float
+    rupture_work: float  # from contact to rupture, [J]
+    rupture_work_error: float
+    outside: str  # the variable that leaves the range stated for the law, empty if none does
+
+
+class Comparison(NamedTuple):
+    """Exact bridges of a pair from contact to rupture, and what the laws say of them."""
+
+    pair: Pair
+    control: ControlName
+    value: float  # of the control, [Pa] or [m³]
+    fraction: Floats  # D/D_c, from 0 to 1, the last the rupture itself
+    separation: Floats  # [m]; these and all that follow are exact
+    force: Floats  # [N]
+    suction: Floats  # [Pa]
+    volume: Floats  # [m³]
+    rupture_work: float  # of the force from contact to rupture, [J]
+    laws: tuple[LawAnswer, ...]  # those of the control first, in either part the best first
+    refused: dict[str, str]  # laws that say nothing of this pair, with the reason
+
+
+class _Reduced(NamedTuple):
+    """A pair and its exact states in the numbers that laws are asked with."""
+
+    length: float  # R̄, [m]
+    tension: float
+    solids: tuple[float, float, float, float]  # θ1, θ2, κ1, κ2
+    controls: dict[str, Floats]  # H* and V* of every state
+    is_asked: NDArray[np.bool_]  # of laws of suction control
+
+
+def compare(
+    pair: Pair,
+    *,
+    suction: ArrayLike | None = None,
+    volume: ArrayLike | None = None,
+    humidity: ArrayLike | None = None,
+    liquid: Liquid,
+    points: int = 61,
+) -> Comparison:
+    r"""Force by every law that applies to a pair, beside the exact force, from contact to rupture.
+
+    .. math:: e = F_\text{law}/F_\text{exact} - 1
+
+    Parameters
+    ----------
+    pair : Pair
+        The solids; radii and angles are single numbers.
+    suction, volume, humidity : float, optional
+        What is held, [Pa], [m³] or [-]; exactly one of them.
+    liquid : Liquid
+        Surface tension, and for humidity density and molar mass.
+    points : int
+        Separations from contact to rupture, at least 5; those at which errors are told are added to them.
+
+    Returns
+    -------
+    Comparison
+
+    Raises
+    ------
+    ValueError
+        For bad input, for arrays, and for solids that hold no bridge apart.
+
+    Notes
+    -----
+    **Validity.** A law of the other control is asked with the exact volume (or suction) of each state, so that its
+    own error is seen and nothing else. A law of suction control knows only states that are stable at constant
+    suction; it is asked up to 0.9 of the rupture distance at the suction of the state. The rupture distance of a law
+    belongs to the law's own control.
+
+    Examples
+    --------
+    >>> grains = Pair(radius=50e-6, contact_angle=np.deg2rad(20))
+    >>> found = compare(grains, suction=20e3, liquid=Liquid(surface_tension=0.0728))
+    >>> own = {answer.name: answer for answer in found.laws if not answer.converted}
+    >>> print(f"{100 * own['zhao2020'].largest_error:.2f} %")
+    3.87 %
+    """
+    count = int(in_range("points", quantity("points", points, ""), float(_FEWEST)))
+    control = control_of(suction, volume, humidity, liquid)
+    exact = _exact(pair, control, liquid, count)
+    reduced = _reduce(exact, liquid)
+    found, refused = [], {}
+    for law in laws.values():
+        answer = _answer(law, exact, reduced)
+        if np.all(np.isnan(answer.error)) and np.isnan(answer.rupture_error) and np.isnan(answer.rupture_work_error):
+            refused[law.name] = _why_silent(law, exact, reduced)
+        else:
+            found.append(answer)
+    return exact._replace(laws=tuple(sorted(found, key=_rank)), refused=refused)
+
+
+def _exact(pair: Pair, control: Control, liquid: Liquid, count: int) -> Comparison:
+    """Exact states, dense towards contact and rupture, where force and error change fastest."""
+    if any(np.ndim(number) for number in (control.value, *pair.radii, *pair.contact_angles)):
+        raise ValueError(f"pair: an array of radii, angles or {control.name} is given where single numbers are needed")
+    held: dict[str, Any] = {control.name: float(control.value), "liquid": liquid}
+    end, contact = rupture(pair, **held), bridge(pair, 0.0, **held)
+    if not (end.exists and contact.exists):
+        raise ValueError("pair: these solids hold no bridge apart, so there is nothing to compare")
+    fraction = np.union1d(np.sin(np.linspace(0.0, 0.5 * np.pi, count)) ** 2, MARKS)
+    states = bridge(pair, fraction[:-1] * end.separation, **held)
+    known = {
+        name: np.append(getattr(states, name), getattr(end, name))
+        for name in ("separation", "force", "suction", "volume")
+    }
+    work = float(rupture_work(control.name, contact, end))
+    return Comparison(pair, control.name, held[control.name], fraction, **known, rupture_work=work, laws=(), refused={})
+
+
+def _reduce(exact: Comparison, liquid: Liquid) -> _Reduced:
+    length, gamma = float(exact.pair.derjaguin_radius), liquid.surface_tension
+    radii, angles = exact.pair.radii, exact.pair.contact_angles
+    is_asked = np.ones(exact.fraction.size, bool)
+    if exact.control == "volume":
+        held: dict[str, Any] = {"suction": exact.suction, "liquid": liquid}
+        stable, end = bridge(exact.pair, exact.separation, **held), rupture(exact.pair, **held)
+        is_asked = np.isclose(stable.force, exact.force, rtol=_SAME, atol=0.0)
+        is_asked &= exact.separation <= UP_TO * np.asarray(end.separation)
+    return _Reduced(
+        length=length,
+        tension=gamma,
+        solids=(float(angles[0]), float(angles[1]), length / float(radii[0]), length / float(radii[1])),
+        controls={"suction": exact.suction * length / gamma, "volume": exact.volume / length**3},
+        is_asked=is_asked,
+    )
+
+
+def _answer(law: Law, exact: Comparison, reduced: _Reduced) -> LawAnswer:
+    is_own = law.control == exact.control
+    control, silence = reduced.controls[law.control], np.full(exact.fraction.size, np.nan)
+    force, distance, work = silence, np.nan, np.nan
+    scale = 2.0 * np.pi * reduced.tension * reduced.length
+    if "force" in law.gives:
+        force = scale * force_star(law.name, exact.separation / reduced.length, control, *reduced.solids)
+        force = force if is_own or law.control == "volume" else np.where(reduced.is_asked, force, np.nan)
+    if is_own and "rupture" in law.gives:
+        distance = reduced.length * float(rupture_star(law.name, control[0], *reduced.solids))
+    if is_own and "rupture_work" in law.gives:
+        work = scale * reduced.length * float(rupture_work_star(law.name, control[0], *reduced.solids))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        error = force / exact.force - 1.0
+    return LawAnswer(
+        name=law.name,
+        converted=not is_own,
+        force=force,
+        error=error,
+        error_at_marks=tuple(float(error[np.searchsorted(exact.fraction, mark)]) for mark in MARKS),
+        largest_error=_largest(error[exact.fraction <= UP_TO]),
+        answered_to=_answered_to(exact.fraction, error),
+        rupture_separation=distance,
+        rupture_error=distance / float(exact.separation[-1]) - 1.0,
+        rupture_work=work,
+        rupture_work_error=work / exact.rupture_work - 1.0,
+        outside=outside_range(law, _asked(law, exact, reduced)),
+    )
+
+
+def _largest(error: Floats) -> float:
+    known = np.abs(error[~np.isnan(error)])
+    return float(known.max()) if known.size else np.nan
+
+
+def _answered_to(fraction: Floats, error: Floats) -> float:
+    silent = np.flatnonzero(np.isnan(error))
+    if not silent.size:
+        return 1.0
+    return float(fraction[silent[0] - 1]) if silent[0] else 0.0
+
+
+def _asked(law: Law, exact: Comparison, reduced: _Reduced) -> dict[str, ArrayLike]:
+    """Values with which a law is asked, up to where its error is judged, by the names of its variables."""
+    theta1, theta2, kappa1, kappa2 = reduced.solids
+    with np.errstate(divide="ignore"):
+        ratio = np.divide(max(kappa1, kappa2), min(kappa1, kappa2))
+    near = exact.fraction <= UP_TO
+    if law.control == "suction":
+        near &= reduced.is_asked
+    return {
+        f"{law.control}_star": reduced.controls[law.control][near],
+        "contact_angle": [theta1, theta2],
+        "size_ratio": ratio,
+    }
+
+
+def _why_silent(law: Law, exact: Comparison, reduced: _Reduced) -> str:
+    if law.control != exact.control and "force" not in law.gives:
+        given = " and ".join(law.gives).replace("_", " ")
+        return f"its {given} belongs to constant {law.control}"
+    return why_silent(law, _asked(law, exact, reduced))
+
+
+def _rank(answer: LawAnswer) -> tuple[bool, bool, float]:
+    is_unknown = bool(np.isnan(answer.largest_error))
+    return answer.converted, is_unknown, 0.0 if is_unknown else answer.largest_error

@@ -1,0 +1,179 @@
+"""Write ``docs/laws.md`` and its pictures: ``python -m tools.law_pages``.
+
+Everything on the page comes from the records of the laws and from their stored errors, which ``python -m
+tools.law_errors`` measures; the pictures are those of ``pendular compare``.
+"""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+import pendular as pl
+from pendular.comparison import plots
+from pendular.comparison.measured import FRACTIONS, MeasuredErrors, measured_errors
+from pendular.comparison.words import SYMBOLS, limit_words, number, percent, size_words
+from pendular.laws import Law, laws
+from pendular.plot import save
+from pendular.question import read_question
+
+DOCS = Path(__file__).parents[1] / "docs"
+PAGE = DOCS / "laws.md"
+
+ANGLES = ("0", "20", "40")
+HELD = {"volume": "1pL", "suction": "20kPa"}
+SHORT = {"force": "F", "rupture": "D_c", "rupture_work": "W"}
+
+INTRODUCTION = f"""\
+# Laws
+
+Closed forms for capillary bridges, side by side with the exact solution of the Young–Laplace equation. This page is
+written by `uv run python -m tools.law_pages` from the records in `pendular.laws` and from errors that `uv run python -m
+tools.law_errors` measures; a test compares both with the code. `pendular laws NAME` prints the same for one law.
+
+- Errors are (law − exact)/exact, of the force F at parts of the exact rupture distance D_c, of D_c itself, and of the
+  work W from contact to rupture. “No bridge”: the law has none where there is one; a dash: it says nothing.
+- H\\* = Δp R̄/γ is the reduced suction, V\\* = V/R̄³ the reduced volume, R̄ = 2 R₁R₂/(R₁+R₂), θ the contact angle on both
+  solids, D the whole gap.
+- A range is that of the authors where they state one, else the one in which the law was measured; the range says which.
+
+## All laws
+
+Largest errors between equal spheres on the grid of the tables below, inside the range of the law; of the force up to
+{FRACTIONS[-1]:g} of the rupture distance.
+
+"""
+
+SIDE_BY_SIDE = f"""
+## Side by side
+
+Two equal spheres of 50 µm with water between them, at a volume of 1 pL and at a suction of 20 kPa: the forces over the
+exact one, and their errors. A law of the other control is asked with the exact suction or volume of each state, so that
+only its own error is seen; a law of suction control is asked up to {pl.comparison.one_pair.UP_TO:g} of the rupture
+distance at the suction of the state.
+
+"""
+
+
+def pictures() -> Iterator[tuple[str, str]]:
+    """Name of each picture and the command that draws it."""
+    for control, value in HELD.items():
+        for angle in ANGLES:
+            name = f"laws_{control}_{angle}.svg"
+            yield name, f"pendular compare --radius 50um --contact-angle {angle} --{control} {value} --plot {name}"
+
+
+def draw(folder: Path) -> None:
+    """Draw all pictures into a folder."""
+    for control, value in HELD.items():
+        for angle in ANGLES:
+            question = read_question("50um", contact_angle=angle, **{control: value})
+            found = pl.compare(question.pair, **question.control, liquid=question.liquid)
+            drawing = plots.comparison_figure(found, title=question.title, subtitle=question.subtitle)
+            save(drawing, folder / f"laws_{control}_{angle}.svg")
+
+
+def page() -> str:
+    """Text of the page."""
+    parts = [INTRODUCTION, *map(line, summary()), SIDE_BY_SIDE]
+    parts += [f"`{command}`\n\n![{alternative(name)}](images/{name})\n\n" for name, command in pictures()]
+    parts += [section(law) for law in laws.values()]
+    return "".join(parts).rstrip() + "\n"
+
+
+def alternative(picture: str) -> str:
+    """What a picture shows, for those who do not see it."""
+    _, control, angle = picture.removesuffix(".svg").split("_")
+    return f"Forces by all laws and their errors at constant {control} and a contact angle of {angle}°"
+
+
+def line(cells: list[str]) -> str:
+    """Line of a table."""
+    return f"| {' | '.join(cells)} |\n"
+
+
+def rule(count: int, words: int = 1) -> list[str]:
+    """Line under the head of a table: the first columns are words, the others numbers."""
+    return ["---"] * words + ["---:"] * (count - words)
+
+
+def summary() -> Iterator[list[str]]:
+    """Table of all laws."""
+    yield ["law", "held", "gives", "range", "F", "D_c", "W"]
+    yield rule(7, words=4)
+    for law in laws.values():
+        errors = [percent(float(error), signed=False) for error in measured_errors(law).of_equal_spheres.largest]
+        given = ", ".join(SHORT[name] for name in law.gives)
+        yield [f"[`{law.name}`](#{law.name})", law.control, given, law.valid_text, *errors]
+
+
+def section(law: Law) -> str:
+    """All about one law."""
+    facts = {
+        "Held": f"{law.control}; gives {' and '.join(law.gives).replace('_', ' ')}",
+        "Range": f"{law.valid_text} ({stated_range(law)})",
+        "Two angles": law.angle_rule,
+        "Two sizes": law.size_rule,
+        "Reference": law.reference + (f", [doi:{law.doi}](https://doi.org/{law.doi})" if law.doi else ""),
+        "Equations": law.equations,
+        "Provenance": law.provenance,
+    }
+    told = [f"- {name}: {fact}\n" for name, fact in facts.items() if fact]
+    told += [f"- Erratum: {erratum}\n" for erratum in law.errata]
+    measured = measured_errors(law)
+    tables = [*map(line, error_table(law, measured))]
+    if np.any(measured.smaller_over_larger < 1.0):
+        tables += ["\nLargest error over all angles:\n\n", *map(line, size_table(law, measured))]
+    return f"## {law.name}\n\n{law.title}\n\n```text\n{law.formula}\n```\n\n{''.join(told)}\n{''.join(tables)}\n"
+
+
+def stated_range(law: Law) -> str:
+    """Limits of the variables, as far as they are restricted."""
+    symbols = {"suction_star": "H\\*", "volume_star": "V\\*", "contact_angle": "θ", "size_ratio": "size ratio"}
+    limits = ((symbols.get(name), limit_words(name, *ends)) for name, ends in law.valid.items())
+    return ", ".join(f"{symbol} {words}" for symbol, words in limits if symbol)
+
+
+def error_table(law: Law, measured: MeasuredErrors) -> Iterator[list[str]]:
+    """Errors between equal spheres, a row a pair."""
+    parts = {
+        "force": [f"F at {part:g} D_c" for part in FRACTIONS],
+        "rupture": ["D_c"],
+        "rupture_work": ["W"],
+    }
+    heads = [head for name in law.gives for head in parts[name]]
+    yield [SYMBOLS[law.control].replace("*", "\\*"), "θ", *heads]
+    yield rule(2 + len(heads), words=0)
+    equal = measured.of_equal_spheres
+    for i in range(equal.control_star.size):
+        errors = np.concatenate([np.atleast_1d(getattr(equal.errors, name)[i]) for name in law.gives])
+        yield [
+            number(equal.control_star[i]),
+            f"{equal.contact_angle[i]:g}°",
+            *(percent(float(error)) for error in errors),
+        ]
+
+
+def size_table(law: Law, measured: MeasuredErrors) -> Iterator[list[str]]:
+    """Largest errors over all angles, for each pair of sizes."""
+    ratios = list(dict.fromkeys(measured.smaller_over_larger.tolist()))
+    heads = [f"{size_words(ratio)}, {SHORT[name]}" for ratio in ratios for name in law.gives]
+    yield [SYMBOLS[law.control].replace("*", "\\*"), *heads]
+    yield rule(1 + len(heads), words=0)
+    for control in dict.fromkeys(measured.control_star.tolist()):
+        cells = []
+        for ratio in ratios:
+            chosen = (measured.control_star == control) & (measured.smaller_over_larger == ratio)
+            largest = measured.chosen(chosen).largest._asdict()
+            cells += [percent(float(largest[name]), signed=False) for name in law.gives]
+        yield [number(control), *cells]
+
+
+def main() -> None:
+    """Write page and pictures."""
+    draw(DOCS / "images")
+    PAGE.write_text(page(), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
