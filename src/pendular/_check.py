@@ -42,13 +42,26 @@ def quantity(name: str, value: object, unit: str, *, allow_inf: bool = False) ->
         ...
     ValueError: suction: '20 kPa' is not a real number
     """
-    array = _real_array(name, _without_units(name, value, unit))
+    array = numbers(name, value, unit)
     if array.size == 0:
         raise ValueError(f"{name}: an array of shape {array.shape} holds no number")
     _refuse_where(np.isnan(array), name, array, unit, "is not a number")
     if not allow_inf:
         _refuse_where(np.isinf(array), name, array, unit, "is not finite")
     return array
+
+
+def numbers(name: str, value: object, unit: str) -> NDArray[np.float64]:
+    """Argument as an array of SI numbers that may be empty, infinite or NaN, where a look at each costs too much.
+
+    Parameters are those of `quantity`.
+
+    Examples
+    --------
+    >>> numbers("separation", [1e-6, float("nan")], "m")
+    array([1.e-06,    nan])
+    """
+    return _real_array(name, _without_units(name, value, unit))
 
 
 def scalar(name: str, value: object, unit: str) -> float:

@@ -1,0 +1,212 @@
+"""Cost of the capillary force of a contact: the table of the exact answer against its rivals, in one run.
+
+All on the same random contacts and threads: the paper's closed form (Eqs. 26, 29 to 32) and Willett's law, compiled by
+the same compiler with all that depends only on the contact angle taken out of the loop; SciPy's splines on a grid; the
+exact solver; the table; and the table collapsed to one pair. ``python -m benchmarks.contacts`` writes docs/speed.md.
+"""
+
+import math
+import statistics
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from numba import get_num_threads, njit
+from scipy.interpolate import RegularGridInterpolator
+
+import pendular as pl
+from pendular._jit import in_chunks
+from pendular.exact import arrays as exact
+from pendular.laws import willett2000, zhao2020
+
+PAGE = Path(__file__).parent.parent / "docs" / "speed.md"
+CONTACT_ANGLE = math.radians(20)
+GAMMA, MEAN_RADIUS, REDUCED_SUCTION = 0.0728, 50e-6, 100.0
+SEED, COUNT, ROUNDS = 20261122, 10_000_000, 5
+BYTES = 5 * 8  # separation, two radii, and the result, which is read before it is written
+
+
+@njit(error_model="numpy", nogil=True)
+def _quadratic(coefficients, t):
+    return (coefficients[0] * t + coefficients[1]) * t + coefficients[2]
+
+
+FIT = tuple(
+    _quadratic(getattr(zhao2020, name), math.tan(CONTACT_ANGLE))
+    for name in ("C1", "C2", "P1", "P2", "P3", "A1", "A2", "A3", "B1", "B2", "B3")
+)
+
+
+@njit(error_model="numpy", nogil=True)
+def paper_range(fit, cosine, suction, gamma, separation, radius1, radius2, out, start, stop):
+    """Zhao et al. (2020), Eqs. 29 to 32 and 26."""
+    c1, c2, p1, p2, p3, a1, a2, a3, b1, b2, b3 = fit
+    for i in range(start, stop):
+        radius = 2.0 * radius1[i] * radius2[i] / (radius1[i] + radius2[i])
+        h = suction / gamma * radius
+        root = h ** (-1.0 / 3.0)
+        rupture = 2.0 / h * cosine * (1.0 + (c1 + c2 * root) * root)
+        x = max(separation[i], 0.0) / radius / rupture
+        if x > 1.0:
+            out[i] = 0.0
+        else:
+            log = math.log(h)
+            a, b = (a1 * log + a2) * log + a3, (b1 * log + b2) * log + b3
+            contact = math.sqrt(2.0 / h) * (p1 * math.exp(-p2 / math.sqrt(h)) + p3)
+            neck = contact * (1.0 + a * (math.sqrt(1.0 - x) - 1.0) + b * x)
+            out[i] = 2.0 * math.pi * gamma * radius * (neck + 0.5 * h * neck * neck)
+
+
+@njit(error_model="numpy", nogil=True)
+def willett_range(theta, volume, gamma, separation, radius1, radius2, out, start, stop):
+    """Willett et al. (2000), the full law, as the kernel of the registry has it."""
+    for i in range(start, stop):
+        mean = 2.0 * radius1[i] * radius2[i] / (radius1[i] + radius2[i])
+        gap, held = max(separation[i], 0.0) / mean, volume / mean**3
+        kappa1, kappa2 = mean / radius1[i], mean / radius2[i]
+        star = willett2000.force_star(gap, held, theta, theta, kappa1, kappa2)
+        out[i] = 2.0 * math.pi * gamma * mean * star
+
+
+def median_ns(function: Callable[[], object], count: int) -> float:
+    """Median time a contact, [ns], after one call that compiles."""
+    function()
+    times = []
+    for _ in range(ROUNDS):
+        begin = time.perf_counter()
+        function()
+        times.append(time.perf_counter() - begin)
+    return statistics.median(times) / count * 1e9
+
+
+def spline(table: pl.Table, suction: float) -> tuple[Callable[..., np.ndarray], str]:
+    """SciPy's cubic splines of the force on a grid of q, ln H* and s², and the size of the grid."""
+    q, log_h = np.linspace(0.0, 1.0, 60), np.linspace(math.log(40.0), math.log(160.0), 24)
+    u = np.linspace(0.0, 0.3, 8)
+    q_, log_, u_ = (axis.ravel() for axis in np.meshgrid(q, log_h, u, indexing="ij"))
+    s = np.sqrt(u_)
+    mean = np.exp(log_) * GAMMA / suction
+    radius1, radius2 = mean / (1.0 + s), mean / (1.0 - s)
+    rupture = table.rupture_distance(suction, radius1, radius2, GAMMA)
+    gap = rupture * (1.0 - q_ * q_) * (1.0 - 1e-15)
+    star = (table.force(gap, suction, radius1, radius2, GAMMA) / mean).reshape(q.size, log_h.size, u.size)
+    interpolator = RegularGridInterpolator((q, log_h, u), star, method="cubic")
+    ruptures = RegularGridInterpolator(
+        (log_h, u), (rupture / mean).reshape(q.size, log_h.size, u.size)[0], method="cubic"
+    )
+
+    def force(separation, radius1, radius2):
+        mean = 2.0 * radius1 * radius2 / (radius1 + radius2)
+        u = ((radius1 - radius2) / (radius1 + radius2)) ** 2
+        log_h = np.log(suction * mean / GAMMA)
+        x = separation / (mean * ruptures((log_h, u)))
+        inside = x < 1.0
+        out = np.zeros_like(separation)
+        q = np.sqrt(1.0 - x[inside])
+        out[inside] = mean[inside] * interpolator((q, log_h[inside], u[inside]))
+        return out
+
+    return force, "60 x 24 x 8"
+
+
+def measure() -> str:
+    """The page."""
+    random = np.random.default_rng(SEED)
+    suction = REDUCED_SUCTION * GAMMA / MEAN_RADIUS
+    radius1, radius2 = (random.uniform(0.5, 1.5, COUNT) * MEAN_RADIUS for _ in range(2))
+    begin = time.perf_counter()
+    table = pl.tabulate(CONTACT_ANGLE)
+    build = time.perf_counter() - begin
+    begin = time.perf_counter()
+    table = pl.tabulate(CONTACT_ANGLE)
+    build = min(build, time.perf_counter() - begin)
+    rupture = table.rupture_distance(suction, MEAN_RADIUS, MEAN_RADIUS, GAMMA)
+    separation = random.uniform(0.0, 1.1, COUNT) * rupture
+    out, truth = np.empty(COUNT), np.empty(COUNT)
+    volume = float(table.volume(0.0, suction, MEAN_RADIUS, MEAN_RADIUS, GAMMA))
+    few = 100_000
+    pair = pl.Pair((radius1[:few], radius2[:few]), CONTACT_ANGLE)
+    liquid = pl.Liquid(surface_tension=GAMMA)
+    truth = pl.bridge(pair, separation[:few], suction=suction, liquid=liquid).force
+    at_contact = pl.bridge(pair, 0.0, suction=suction, liquid=liquid).force
+
+    chunk = 65536
+    cosine = math.cos(CONTACT_ANGLE)
+    ends = (separation, radius1, radius2, out)
+
+    def error(force: np.ndarray) -> str:
+        return f"{np.max(np.abs(force[:few] - truth) / at_contact):.1e}"
+
+    rows = []
+
+    def add(name: str, cost: float, wrong: str) -> None:
+        rows.append((name, cost, wrong))
+
+    cost = median_ns(lambda: in_chunks(paper_range, COUNT, chunk, FIT, cosine, suction, GAMMA, *ends), COUNT)
+    add("closed form of the paper, Eqs. 26, 29-32", cost, error(out))
+    cost = median_ns(lambda: in_chunks(willett_range, COUNT, chunk, CONTACT_ANGLE, volume, GAMMA, *ends), COUNT)
+    add("Willett's law (constant volume)", cost, "another control")
+    by_spline, grid = spline(table, suction)
+    part = (separation[:few], radius1[:few], radius2[:few])
+    cost = median_ns(lambda: by_spline(*part), few)
+    add(f"SciPy, cubic splines on {grid} points, one thread", cost, error(by_spline(*part)))
+    length = np.minimum(radius1, radius2)[: 10 * few]
+    questions = np.column_stack(
+        [
+            separation[: 10 * few] / length,
+            suction * length / GAMMA,
+            length / radius1[: 10 * few],
+            np.full(10 * few, CONTACT_ANGLE),
+            length / radius2[: 10 * few],
+            np.full(10 * few, CONTACT_ANGLE),
+        ]
+    )
+    states, statuses = np.empty((10 * few, 19)), np.empty(10 * few, np.int8)
+    cost = median_ns(
+        lambda: in_chunks(exact.suction_range, 10 * few, 4096, exact.STABLE, questions, states, statuses), 10 * few
+    )
+    add("exact solver, all quantities", cost, "0")
+    cost = median_ns(lambda: table.force(separation, suction, radius1, radius2, GAMMA, out=out), COUNT)
+    add("**table**", cost, error(out))
+    curve = table.curve(suction, MEAN_RADIUS, MEAN_RADIUS, GAMMA)
+    cost = median_ns(lambda: curve.force(separation, out=out), COUNT)
+    one = pl.Pair(MEAN_RADIUS, CONTACT_ANGLE)
+    here = pl.bridge(one, separation[:few], suction=suction, liquid=liquid).force
+    wrong = np.max(np.abs(out[:few] - here)) / pl.bridge(one, 0.0, suction=suction, liquid=liquid).force
+    add(f"**table at one pair**, {curve.series.size} terms", cost, f"{wrong:.1e}")
+    copy = median_ns(lambda: np.copyto(out, separation), COUNT)
+    bandwidth = 3 * 8 / copy  # GB/s: copying reads both and writes one
+    reference = rows[0][1]
+    lines = [
+        f"| {name} | {cost:.1f} | {cost / reference:.2f} | {BYTES / cost / bandwidth:.0%} | {wrong} |"
+        for name, cost, wrong in rows
+    ]
+    mib = sum(array.nbytes for array in (table.grid.force, table.grid.rupture)) / 2**20
+    bound = table.bound
+    return f"""# Speed of the table
+
+Written by `python -m benchmarks.contacts`: {COUNT:.0e} random contacts with radii of 25 to 75 µm at a reduced
+suction of {REDUCED_SUCTION:g} (mean pair), contact angle {math.degrees(CONTACT_ANGLE):.0f}°, gaps from 0 to 1.1 of the
+mean rupture distance, seed {SEED}, {get_num_threads()} threads, medians of {ROUNDS} runs. The rival laws are compiled
+by the same compiler; what depends on the contact angle alone is taken out of the paper's loop. The error is the largest
+one over the force at contact. Copying an array moved {bandwidth:.0f} GB/s in the same run; the fourth column is the
+share of that which a contact's {BYTES} bytes take.
+
+| | ns a contact | ratio to the paper's form | share of memory bandwidth | error |
+|---|---|---|---|---|
+{chr(10).join(lines)}
+
+The table was built in {build:.1f} s, for reduced suctions from {table.reduced[0]:g} to {table.reduced[1]:g} and all
+size ratios up to the plane; its forces take {mib:.1f} MiB. On {bound.bridges} bridges that it was not made from, its
+force is within **{bound.force:.1e}** of the force at contact up to 1 - D/D_c = 4e-6, its rupture distance within
+**{bound.rupture:.1e}**, relative, and its volume within {bound.liquid:.1e} of that at contact. They are measured anew
+for each table that is built, and stored in it.
+"""
+
+
+if __name__ == "__main__":
+    page = measure()
+    sys.stdout.write(page)
+    PAGE.write_text(page, encoding="utf-8")

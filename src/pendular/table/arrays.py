@@ -1,0 +1,77 @@
+"""The kernels of a table in loops over arrays.
+
+Forces and what goes with them run in blocks that pass through the first cache three times: the arithmetic of all
+contacts first, then one polynomial after another. The compiler turns the arithmetic into vector instructions, and the
+processor need not wait for one contact before it begins with the next.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .._jit import kernel
+from . import kernels
+from .kernels import Grid, Place, cell_of, liquid_unit, place_of, q_of, reduce_pair
+from .polynomial import CELL, RUPTURE_CELL, vector_in_three, vector_in_two
+
+Floats = NDArray[np.float64]
+Operands = tuple[Floats, Floats, Floats, Floats, Floats]  # separation, control, radius 1, radius 2, surface tension
+
+# What is asked.
+FORCE, LIQUID, STIFFNESS, ENERGY, RUPTURE = range(5)
+
+_BLOCK = 256
+
+
+@kernel
+def _at(operand: Floats, i: int) -> float:
+    """Element i of an operand that is as long as the result or has one element for all."""
+    return operand[min(i, operand.size - 1)]
+
+
+@kernel
+def block_range(asked: int, grid: Grid, x: Operands, out: Floats, start: int, stop: int) -> None:
+    """Forces, or what goes with them, of the contacts from start to stop."""
+    separation, control, radius1, radius2, gamma = asking = np.empty((5, _BLOCK))
+    size, rupture, unit, at_x, at_y, at_t = np.empty((6, _BLOCK))
+    row, size_cell, cell = np.empty((3, _BLOCK), np.int64)
+    for begin in range(start, stop, _BLOCK):
+        count = min(_BLOCK, stop - begin)
+        for j, operand in enumerate(x):
+            if operand.size == 1:
+                asking[j, :count] = operand[0]
+            else:
+                asking[j, :count] = operand[begin : begin + count]
+        for i in range(count):
+            pair = reduce_pair(grid, control[i], radius1[i], radius2[i], gamma[i])
+            control[i], size[i], row[i], rupture[i] = pair.control, pair.size, pair.side, pair.radius
+        for i in range(count):
+            if asked == FORCE:
+                unit[i] = 2.0 * math.pi * gamma[i] * rupture[i]
+            else:
+                unit[i] = liquid_unit(grid, control[i], rupture[i], gamma[i])
+        for i in range(count):
+            row[i], size_cell[i], at_x[i], at_y[i] = place_of(grid, control[i], size[i], row[i])
+            rupture[i] *= vector_in_two(grid.rupture, size_cell[i] * RUPTURE_CELL, 0.0, at_y[i], at_x[i])
+        for i in range(count):
+            place = Place(row[i], size_cell[i], at_x[i], at_y[i])
+            cell[i], at_t[i] = cell_of(grid, place, q_of(separation[i], rupture[i]))
+        coefficients = grid.force if asked == FORCE else grid.liquid
+        beyond = 0.0 if asked == FORCE else math.nan
+        for i in range(count):
+            value = unit[i] * vector_in_three(coefficients, cell[i] * CELL, at_x[i], at_y[i], at_t[i])
+            out[begin + i] = beyond if separation[i] >= rupture[i] else value
+
+
+@kernel
+def scalar_range(asked: int, grid: Grid, x: Operands, out: Floats, start: int, stop: int) -> None:
+    """Stiffnesses, energies or rupture distances of the contacts from start to stop."""
+    for i in range(start, stop):
+        control, radius1, radius2, gamma = _at(x[1], i), _at(x[2], i), _at(x[3], i), _at(x[4], i)
+        if asked == RUPTURE:
+            out[i] = kernels.rupture_distance(grid, control, radius1, radius2, gamma)
+        elif asked == STIFFNESS:
+            out[i] = kernels.stiffness(grid, _at(x[0], i), control, radius1, radius2, gamma)
+        else:
+            out[i] = kernels.energy(grid, _at(x[0], i), control, radius1, radius2, gamma)

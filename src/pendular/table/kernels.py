@@ -1,0 +1,253 @@
+"""What a table answers, for one contact: scalar kernels, to be called from compiled code of one's own.
+
+A table is a set of cells, each with a polynomial. A cell is found without a logarithm or a search: the cells of a
+coordinate are equal parts of the octaves of a number w, which are read off the bits of the floating-point number.
+Octaves resolve what happens near w = 0. The three coordinates:
+
+- the control c*: suction ΔpR̄/γ, or volume V/R̄³; w = c*;
+- the size u = s² of a pair, with s = (R1 - R2)/(R1 + R2), or u = |s| where the two contact angles differ; w = u₀ + u₁u;
+- q = √(1 - D/D_c), 0 at rupture and 1 at contact; w = q₀ + q₁q.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .._jit import kernel
+from .polynomial import CELL, RUPTURE_CELL, in_three, in_two
+
+__all__ = ["Grid", "energy", "force", "liquid", "rupture_distance", "stiffness"]
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+# Columns of the two headers, one row for each part of an octave of the control; some rows share their cells.
+X0, X1, U0, U1, Q0, Q1 = range(6)
+U_SHIFT, U_FIRST, U_COUNT, Q_SHIFT, Q_FIRST, Q_COUNT, SIZE_CELLS, CELLS = range(8)
+
+_MANTISSA = 52
+_MANTISSA_BITS, _BITS_OF_ONE = (1 << _MANTISSA) - 1, 1023 << _MANTISSA
+_ALMOST_ONE = 1.0 - 2.0**-53
+# Five points are exact for the product of q and a polynomial of the seventh degree.
+_ABSCISSAE, _WEIGHTS = (tuple(numbers.tolist()) for numbers in np.polynomial.legendre.leggauss(5))
+
+
+class Grid(NamedTuple):
+    """A table as compiled code sees it: the argument of all kernels."""
+
+    lines: Floats  # (rows, 6): x₀, x₁ with x = x₀ + x₁c* from -1 to 1, then u₀, u₁, q₀, q₁
+    cuts: Integers  # (rows, 8): how w is cut into cells, and the number of cells before those of the row
+    rupture: Floats  # coefficients of D_c/R̄
+    force: Floats  # of λ/R̄
+    liquid: Floats  # of c*²V/R̄³ under suction, of √c* ΔpR̄/γ at constant volume, which vary slowly
+    shift: int  # cut of the control
+    first: int
+    cells: int
+    low: float  # range of the control
+    high: float
+    least_ratio: float  # range of the smaller radius over the larger
+    largest_ratio: float
+    sides: int  # 1 if the contact angles are equal; 2 if it matters which solid is the smaller
+    is_volume: bool
+
+
+class Reduced(NamedTuple):
+    """Two solids and a control, reduced; NaN outside the range of the table."""
+
+    radius: float  # R̄
+    control: float  # c*
+    size: float  # u
+    side: int
+
+
+class Place(NamedTuple):
+    """Where a pair lies in the table."""
+
+    row: int  # of the headers
+    size_cell: int  # among all of the table
+    x: float  # control in its cell, -1 to 1
+    y: float  # size in its cell, -1 to 1
+
+
+@kernel
+def locate(w: float, shift: int, first: int, count: int) -> tuple[int, float]:
+    """Cell of a number and the coordinate in it, from -1 to 1; the coordinate of a NaN is NaN."""
+    bits = np.float64(w).view(np.int64)
+    cell: int = min(max((bits >> shift) - first, 0), count - 1)  # type: ignore[assignment]
+    within = ((bits << (_MANTISSA - shift)) & _MANTISSA_BITS) | _BITS_OF_ONE
+    place: float = 2.0 * np.int64(within).view(np.float64) - 3.0 + (w - w)
+    return cell, place
+
+
+@kernel
+def below_one(w: float) -> float:
+    """A coordinate kept out of the octave that begins at 1."""
+    return _ALMOST_ONE if w > _ALMOST_ONE else w
+
+
+@kernel
+def edge(cell: int, shift: int, first: int) -> float:
+    """Lower end of a cell."""
+    return np.int64((first + cell) << shift).view(np.float64)
+
+
+@kernel
+def reduce_pair(grid: Grid, control: float, radius1: float, radius2: float, surface_tension: float) -> Reduced:
+    """R̄, c* and u of a pair."""
+    small, large = (radius1, radius2) if radius1 < radius2 else (radius2, radius1)
+    ratio = small / large
+    inverse = 1.0 / (1.0 + ratio)
+    radius = 2.0 * small * inverse
+    s = (1.0 - ratio) * inverse
+    reduced = control / (radius * radius * radius) if grid.is_volume else control / surface_tension * radius
+    is_covered = grid.low <= reduced <= grid.high and grid.least_ratio <= ratio <= grid.largest_ratio
+    return Reduced(
+        radius,
+        reduced if is_covered else math.nan,
+        s * s if grid.sides == 1 else s,
+        1 if grid.sides == 2 and radius1 > radius2 else 0,
+    )
+
+
+@kernel
+def place_of(grid: Grid, control: float, size: float, side: int) -> Place:
+    """Cells and coordinates of the control and of the size."""
+    row = side * grid.cells + locate(control, grid.shift, grid.first, grid.cells)[0]
+    w = below_one(grid.lines[row, U0] + grid.lines[row, U1] * size)
+    size_cell, y = locate(w, grid.cuts[row, U_SHIFT], grid.cuts[row, U_FIRST], grid.cuts[row, U_COUNT])
+    x = grid.lines[row, X0] + grid.lines[row, X1] * control
+    return Place(row, size_cell + grid.cuts[row, SIZE_CELLS], x, y)
+
+
+@kernel
+def q_of(separation: float, rupture: float) -> float:
+    """√(1 - D/D_c), NaN beyond rupture; solids that overlap count as touching."""
+    return math.sqrt(1.0 - (0.0 if separation < 0.0 else separation) / rupture)
+
+
+@kernel
+def cell_of(grid: Grid, place: Place, q: float) -> tuple[int, float]:
+    """Cell among all of the table at q, and the coordinate in it."""
+    row = place.row
+    w = below_one(grid.lines[row, Q0] + grid.lines[row, Q1] * q)
+    q_cell, t = locate(w, grid.cuts[row, Q_SHIFT], grid.cuts[row, Q_FIRST], grid.cuts[row, Q_COUNT])
+    size_cell = place.size_cell - grid.cuts[row, SIZE_CELLS]
+    return grid.cuts[row, CELLS] + size_cell * grid.cuts[row, Q_COUNT] + q_cell, t
+
+
+@kernel
+def rupture_star(grid: Grid, place: Place) -> float:
+    """D_c/R̄."""
+    return in_two(grid.rupture, place.size_cell * RUPTURE_CELL, place.x, place.y)
+
+
+@kernel
+def rupture_distance(grid: Grid, control: float, radius1: float, radius2: float, surface_tension: float) -> float:
+    """Separation at which the bridge breaks, [m]."""
+    pair = reduce_pair(grid, control, radius1, radius2, surface_tension)
+    return pair.radius * rupture_star(grid, place_of(grid, pair.control, pair.size, pair.side))
+
+
+@kernel
+def force(
+    grid: Grid, separation: float, control: float, radius1: float, radius2: float, surface_tension: float
+) -> float:
+    """Attraction of two solids, [N]: 0 from the rupture distance on."""
+    pair = reduce_pair(grid, control, radius1, radius2, surface_tension)
+    place = place_of(grid, pair.control, pair.size, pair.side)
+    rupture = pair.radius * rupture_star(grid, place)
+    if separation >= rupture:
+        return 0.0
+    cell, t = cell_of(grid, place, q_of(separation, rupture))
+    return 2.0 * math.pi * surface_tension * pair.radius * in_three(grid.force, cell * CELL, place.x, place.y, t)[0]
+
+
+@kernel
+def liquid_unit(grid: Grid, control: float, radius: float, surface_tension: float) -> float:
+    """Unit of the quantity that goes with the control: R̄³/c*² of a volume, γ/(R̄√c*) of a suction."""
+    if grid.is_volume:
+        return surface_tension / (radius * math.sqrt(control))
+    return radius * radius * radius / (control * control)
+
+
+@kernel
+def liquid(
+    grid: Grid, separation: float, control: float, radius1: float, radius2: float, surface_tension: float
+) -> float:
+    """Liquid volume under suction, [m³], or suction at constant volume, [Pa]; NaN where there is no bridge."""
+    pair = reduce_pair(grid, control, radius1, radius2, surface_tension)
+    place = place_of(grid, pair.control, pair.size, pair.side)
+    rupture = pair.radius * rupture_star(grid, place)
+    if not separation < rupture:
+        return math.nan
+    cell, t = cell_of(grid, place, q_of(separation, rupture))
+    unit = liquid_unit(grid, pair.control, pair.radius, surface_tension)
+    return unit * in_three(grid.liquid, cell * CELL, place.x, place.y, t)[0]
+
+
+@kernel
+def stiffness(
+    grid: Grid, separation: float, control: float, radius1: float, radius2: float, surface_tension: float
+) -> float:
+    """Rate dF/dD with the control held, [N/m]; 0 in an overlap, where the force is that at contact; NaN without bridge.
+
+    dq/dD = -1/(2 q D_c).
+    """
+    pair = reduce_pair(grid, control, radius1, radius2, surface_tension)
+    place = place_of(grid, pair.control, pair.size, pair.side)
+    rupture = pair.radius * rupture_star(grid, place)
+    if not separation < rupture:
+        return math.nan
+    if separation < 0.0:
+        return 0.0
+    q = q_of(separation, rupture)
+    cell, t = cell_of(grid, place, q)
+    cut = grid.cuts[place.row]
+    q_cell = (cell - cut[CELLS]) % cut[Q_COUNT]
+    width = edge(q_cell + 1, cut[Q_SHIFT], cut[Q_FIRST]) - edge(q_cell, cut[Q_SHIFT], cut[Q_FIRST])
+    t_rate = 2.0 / width * grid.lines[place.row, Q1] * (-0.5 / (q * rupture))
+    rate = in_three(grid.force, cell * CELL, place.x, place.y, t)[1] * t_rate
+    return 2.0 * math.pi * surface_tension * pair.radius * rate
+
+
+@kernel
+def _integral(grid: Grid, place: Place, end: float) -> float:
+    """∫ λ* q dq from rupture to an end, piece by piece and hence exactly the integral of the polynomials."""
+    line, cut = grid.lines[place.row], grid.cuts[place.row]
+    at_rupture, _ = cell_of(grid, place, 0.0)
+    last, _ = cell_of(grid, place, end)
+    step = 1 if line[Q1] > 0.0 else -1
+    total, low = 0.0, 0.0
+    for i in range(abs(last - at_rupture) + 1):
+        cell = at_rupture + step * i
+        q_cell = (cell - cut[CELLS]) % cut[Q_COUNT]
+        far = edge(q_cell + (1 if step > 0 else 0), cut[Q_SHIFT], cut[Q_FIRST])
+        high = end if cell == last else (far - line[Q0]) / line[Q1]
+        half = 0.5 * (high - low)
+        for j in range(len(_ABSCISSAE)):
+            q = 0.5 * (low + high) + half * _ABSCISSAE[j]
+            _, t = locate(line[Q0] + line[Q1] * q, cut[Q_SHIFT], cut[Q_FIRST], cut[Q_COUNT])
+            total += half * _WEIGHTS[j] * q * in_three(grid.force, cell * CELL, place.x, place.y, t)[0]
+        low = high
+    return total
+
+
+@kernel
+def energy(
+    grid: Grid, separation: float, control: float, radius1: float, radius2: float, surface_tension: float
+) -> float:
+    """Potential with F = dE/dD, [J]: minus the work that breaks the bridge, 0 from the rupture distance on.
+
+    E(D) = -∫ F dD from D to D_c = -2 D_c ∫ F q dq from 0 to q(D).
+    """
+    pair = reduce_pair(grid, control, radius1, radius2, surface_tension)
+    place = place_of(grid, pair.control, pair.size, pair.side)
+    rupture = rupture_star(grid, place)
+    if separation >= pair.radius * rupture:
+        return 0.0
+    unit = 2.0 * math.pi * surface_tension * pair.radius * pair.radius
+    work = 2.0 * rupture * unit * _integral(grid, place, q_of(separation, pair.radius * rupture))
+    overlap = -separation if separation < 0.0 else 0.0
+    return -work - overlap * force(grid, 0.0, control, radius1, radius2, surface_tension)

@@ -1,0 +1,64 @@
+"""A table as one small file: a NumPy archive with a description and a checksum."""
+
+import hashlib
+import io
+import json
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["load", "save"]
+
+_FORMAT = 1
+_DESCRIPTION = "description"
+
+
+def _shuffled(array: NDArray[Any]) -> NDArray[np.uint8]:
+    """Bytes of equal weight side by side: those of rounded coefficients are mostly zero, and compress well."""
+    return np.ascontiguousarray(array.reshape(-1).view(np.uint8).reshape(-1, array.itemsize).T)
+
+
+def _unshuffled(planes: NDArray[np.uint8], kind: str, shape: list[int]) -> NDArray[Any]:
+    return np.ascontiguousarray(planes.T).reshape(-1).view(kind).reshape(shape)
+
+
+def _checksum(description: str, arrays: Mapping[str, NDArray[Any]]) -> str:
+    digest = hashlib.sha256(description.encode())
+    for name in sorted(arrays):
+        digest.update(name.encode())
+        digest.update(np.ascontiguousarray(arrays[name]).tobytes())
+    return digest.hexdigest()
+
+
+def save(path: Path, description: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> None:
+    """Write a description, of plain values, and arrays of eight-byte numbers."""
+    kinds = {name: [array.dtype.str, list(array.shape)] for name, array in arrays.items()}
+    text = json.dumps({"format": _FORMAT, "arrays": kinds, **description}, sort_keys=True)
+    stamp = {"text": text, "sha256": _checksum(text, arrays)}
+    packed = {name: _shuffled(array) for name, array in arrays.items()}
+    with open(path, "wb") as file:
+        np.savez_compressed(file, **{_DESCRIPTION: np.array(json.dumps(stamp))}, **packed)  # type: ignore[arg-type]
+
+
+def load(path: Path) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+    """Read a file back, and refuse it unless it is whole."""
+    try:
+        with np.load(io.BytesIO(Path(path).read_bytes()), allow_pickle=False) as packed:
+            stamp = json.loads(str(packed[_DESCRIPTION]))
+            description = json.loads(stamp["text"])
+            arrays = {
+                name: _unshuffled(packed[name], kind, shape) for name, (kind, shape) in description["arrays"].items()
+            }
+    except OSError as error:
+        raise ValueError(f"path: '{path}' cannot be read: {error.strerror or error}") from error
+    except (KeyError, ValueError, TypeError, zipfile.BadZipFile) as error:
+        raise ValueError(f"path: '{path}' is not a table, or damaged") from error
+    if description["format"] != _FORMAT:
+        raise ValueError(f"path: '{path}' has format {description['format']}, known is {_FORMAT}")
+    if _checksum(stamp["text"], arrays) != stamp["sha256"]:
+        raise ValueError(f"path: '{path}' is damaged: its checksum does not agree")
+    return description, arrays

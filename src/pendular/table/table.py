@@ -1,0 +1,388 @@
+"""A table as its users see it: built, asked in SI units, saved and loaded."""
+
+import warnings
+from dataclasses import dataclass
+from importlib.metadata import version
+from math import inf
+from os import PathLike
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .._check import angle, in_range, numbers, one_of, quantity, scalar
+from .._jit import in_chunks
+from .arrays import ENERGY, FORCE, LIQUID, RUPTURE, STIFFNESS, block_range, scalar_range
+from .build import Task, build_grid
+from .curve import ForceCurve, curve_of
+from .kernels import Grid
+from .measure import Bound, measure
+from .storage import load, save
+
+__all__ = ["Table", "ToleranceWarning", "load_table", "tabulate"]
+
+Floats = NDArray[np.float64]
+
+_CHUNK = 65536  # contacts that one thread takes at a time
+_RANGES = {"suction": (1e-2, 1e8), "volume": (1e-9, 1.0)}
+_TOLERANCES = {"suction": 1e-8, "volume": 1e-6}
+_ARRAYS = ("lines", "cuts", "rupture", "force", "liquid")
+_UNITS = {"suction": "Pa", "volume": "m**3"}
+
+
+class ToleranceWarning(UserWarning):
+    """A table does not reach the accuracy that was asked."""
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """Exact bridges of one pair of contact angles as polynomials, made by :func:`tabulate`.
+
+    Parameters
+    ----------
+    contact_angle : tuple of float
+        θ1 and θ2, [rad].
+    control : {"suction", "volume"}
+        What is held constant.
+    reduced : tuple of float
+        Range of the reduced control, ΔpR̄/γ or V/R̄³ with R̄ = 2R1R2/(R1+R2), [-].
+    radius_ratio : tuple of float
+        Range of the larger radius over the smaller, [-].
+    tolerance : float
+        Error of the force over the force at contact that was asked, [-].
+    bound : Bound
+        Largest errors found on bridges that the table was not made from: ``force`` over the force at contact,
+        ``rupture`` relative, ``liquid`` over that at contact; and how many ``bridges`` were compared.
+    version : str
+        Of Pendular.
+    grid : Grid
+        The cells; the first argument of the scalar kernels in ``pendular.table.kernels``, which compiled code may call.
+
+    Examples
+    --------
+    >>> table = tabulate(0.35, reduced=(100.0, 200.0), radius_ratio=(1, 2), tolerance=1e-6)
+    >>> f"{table.force([0.0, 1e-6, 1e-5], 1e5, 100e-6, 120e-6, 0.0728).round(12)}"
+    '[4.4711833e-05 6.6390830e-06 0.0000000e+00]'
+    """
+
+    contact_angle: tuple[float, float]
+    control: Literal["suction", "volume"]
+    reduced: tuple[float, float]
+    radius_ratio: tuple[float, float]
+    tolerance: float
+    bound: Bound
+    version: str
+    grid: Grid
+
+    def force(
+        self,
+        separation: ArrayLike,
+        control: ArrayLike,
+        radius1: ArrayLike,
+        radius2: ArrayLike,
+        surface_tension: ArrayLike,
+        *,
+        out: Floats | None = None,
+    ) -> Floats:
+        """Attraction of two solids, exactly 0.0 from the rupture distance on.
+
+        Parameters
+        ----------
+        separation : array_like
+            Whole gap, [m]. Solids that overlap count as touching, as grains of a DEM code do.
+        control : array_like
+            Suction, [Pa], or liquid volume, [m³].
+        radius1, radius2 : array_like
+            Radii, [m], infinite for a plane.
+        surface_tension : array_like
+            [N/m].
+        out : ndarray, optional
+            Where to store the result: float64, contiguous, of the shape to which the arguments broadcast.
+
+        Returns
+        -------
+        ndarray or float
+            [N], NaN where an argument is NaN.
+
+        Raises
+        ------
+        ValueError
+            Where a pair or its control is outside the range of the table.
+        """
+        return self._ask(FORCE, out, separation, control, radius1, radius2, surface_tension)
+
+    def volume(
+        self,
+        separation: ArrayLike,
+        suction: ArrayLike,
+        radius1: ArrayLike,
+        radius2: ArrayLike,
+        surface_tension: ArrayLike,
+        *,
+        out: Floats | None = None,
+    ) -> Floats:
+        """Liquid volume under suction, [m³], NaN where there is no bridge; arguments as for :meth:`force`."""
+        one_of("control", self.control, ("suction",))
+        return self._ask(LIQUID, out, separation, suction, radius1, radius2, surface_tension)
+
+    def suction(
+        self,
+        separation: ArrayLike,
+        volume: ArrayLike,
+        radius1: ArrayLike,
+        radius2: ArrayLike,
+        surface_tension: ArrayLike,
+        *,
+        out: Floats | None = None,
+    ) -> Floats:
+        """Suction at constant volume, [Pa], NaN where there is no bridge; arguments as for :meth:`force`."""
+        one_of("control", self.control, ("volume",))
+        return self._ask(LIQUID, out, separation, volume, radius1, radius2, surface_tension)
+
+    def stiffness(
+        self,
+        separation: ArrayLike,
+        control: ArrayLike,
+        radius1: ArrayLike,
+        radius2: ArrayLike,
+        surface_tension: ArrayLike,
+        *,
+        out: Floats | None = None,
+    ) -> Floats:
+        """Rate dF/dD with the control held, [N/m]; 0 in an overlap, NaN where there is no bridge."""
+        return self._ask(STIFFNESS, out, separation, control, radius1, radius2, surface_tension)
+
+    def energy(
+        self,
+        separation: ArrayLike,
+        control: ArrayLike,
+        radius1: ArrayLike,
+        radius2: ArrayLike,
+        surface_tension: ArrayLike,
+        *,
+        out: Floats | None = None,
+    ) -> Floats:
+        """Potential with F = dE/dD, [J]: minus the work that breaks the bridge, 0 from the rupture distance on."""
+        return self._ask(ENERGY, out, separation, control, radius1, radius2, surface_tension)
+
+    def rupture_distance(
+        self,
+        control: ArrayLike,
+        radius1: ArrayLike,
+        radius2: ArrayLike,
+        surface_tension: ArrayLike,
+        *,
+        out: Floats | None = None,
+    ) -> Floats:
+        """Separation at which the bridge breaks, [m]: the fold, or at constant volume its first loss of stability."""
+        return self._ask(RUPTURE, out, 0.0, control, radius1, radius2, surface_tension)
+
+    def curve(self, control: float, radius1: float, radius2: float, surface_tension: float) -> ForceCurve:
+        """Collapse the table to the force curve of one pair at one control, for a monodisperse packing.
+
+        Parameters
+        ----------
+        control, radius1, radius2, surface_tension : float
+            As for :meth:`force`.
+
+        Returns
+        -------
+        ForceCurve
+            Off the table by less than a tenth of its tolerance.
+
+        Raises
+        ------
+        ValueError
+            Where the pair or its control is outside the range of the table.
+        """
+        self.force(0.0, control, radius1, radius2, surface_tension)
+        return curve_of(self.grid, self.tolerance, control, radius1, radius2, surface_tension)
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the table to one file, with its version, its bounds and a checksum.
+
+        Parameters
+        ----------
+        path : path
+            Of the file.
+        """
+        description = {
+            "contact_angle": self.contact_angle,
+            "control": self.control,
+            "reduced": self.reduced,
+            "radius_ratio": [str(ratio) for ratio in self.radius_ratio],
+            "tolerance": self.tolerance,
+            "bound": self.bound,
+            "version": self.version,
+            "cut": [self.grid.shift, self.grid.first, self.grid.cells],
+            "range": [self.grid.low, self.grid.high, self.grid.least_ratio, self.grid.largest_ratio],
+        }
+        save(Path(path), description, {name: getattr(self.grid, name) for name in _ARRAYS})
+
+    def _ask(self, asked: int, out: Floats | None, *arguments: ArrayLike) -> Floats:
+        names = ("separation", self.control, "radius1", "radius2", "surface_tension")
+        units = ("m", _UNITS[self.control], "m", "m", "N/m")
+        read = [numbers(name, value, unit) for name, value, unit in zip(names, arguments, units, strict=True)]
+        shape = np.broadcast_shapes(*(array.shape for array in read))
+        result = np.empty(shape) if out is None else out
+        if result.shape != shape or result.dtype != np.float64 or not result.flags.c_contiguous:
+            raise ValueError(f"out: is not a contiguous float64 array of shape {shape}")
+        # One array type for every call, hence one compilation; an operand of one element is not repeated.
+        operands = tuple(
+            np.require(array if array.size == 1 else np.broadcast_to(array, shape), None, ["C", "W"]).reshape(-1)
+            for array in read
+        )
+        loop = block_range if asked in (FORCE, LIQUID) else scalar_range
+        in_chunks(loop, result.size, _CHUNK, asked, self.grid, operands, result.reshape(-1))
+        if np.isnan(np.sum(result)):
+            self._refuse_outside(*np.broadcast_arrays(*read[1:]))
+        return result[()]
+
+    def _refuse_outside(self, control: Floats, radius1: Floats, radius2: Floats, surface_tension: Floats) -> None:
+        """Name the first pair that the table does not cover; a NaN is none."""
+        with np.errstate(all="ignore"):
+            ratio = np.maximum(radius1, radius2) / np.minimum(radius1, radius2)
+            derjaguin = 2.0 / (1.0 / radius1 + 1.0 / radius2)
+            is_volume = self.control == "volume"
+            reduced = control / derjaguin**3 if is_volume else control * derjaguin / surface_tension
+        for name, values, (low, high) in (
+            ("radius ratio", ratio, self.radius_ratio),
+            (f"reduced {self.control}", reduced, self.reduced),
+        ):
+            outside = values[(values < low) | (values > high)]
+            if outside.size:
+                raise ValueError(
+                    f"{name}: {outside.flat[0]:.6g} is not in [{low:.6g}, {high:.6g}], the range of the table"
+                )
+
+
+def tabulate(
+    contact_angle: ArrayLike,
+    control: Literal["suction", "volume"] = "suction",
+    *,
+    reduced: tuple[float, float] | None = None,
+    radius_ratio: tuple[float, float] = (1.0, inf),
+    tolerance: float | None = None,
+) -> Table:
+    r"""Tabulate the exact bridges of one pair of contact angles as polynomials.
+
+    .. math:: \lambda^* = \sum_{ijk} c_{ijk}\, x^i y^j t^k
+
+    in cells of the reduced control (x), of the size ratio (y) and of :math:`q = \sqrt{1 - D/D_c}` (t), in which the
+    branch is smooth up to rupture.
+
+    Parameters
+    ----------
+    contact_angle : float or pair of float
+        On both solids, or on each, [rad].
+    control : {"suction", "volume"}
+        What is held constant.
+    reduced : (float, float), optional
+        Range of ΔpR̄/γ, (1e-2, 1e8) by default, or of V/R̄³, (1e-9, 1) by default, [-].
+    radius_ratio : (float, float)
+        Range of the larger radius over the smaller, [-]; infinite for a plane.
+    tolerance : float, optional
+        Error of the force over the force at contact, [-]; 1e-8 under suction and 1e-6 at constant volume by default.
+
+    Returns
+    -------
+    Table
+        With the error that was measured in ``bound``.
+
+    Raises
+    ------
+    ValueError
+        For bad input.
+
+    Warns
+    -----
+    ToleranceWarning
+        If the error that was measured is larger than what was asked.
+
+    Notes
+    -----
+    **Validity.** As the exact solver. The bound on the force holds up to 1 - D/D_c = 4e-6; nearer to rupture, where the
+    force falls infinitely fast, it is that of a separation off by less than 1e-9 of itself.
+
+    Examples
+    --------
+    >>> table = tabulate(0.0, reduced=(10.0, 100.0), radius_ratio=(1, 1), tolerance=1e-6)
+    >>> table.bound.force < 1e-6, table.bound.rupture < 1e-7
+    (True, True)
+    """
+    one_of("control", control, tuple(_RANGES))
+    angles = np.broadcast_to(angle("contact_angle", contact_angle), (2,))
+    low, high = _range("reduced", _RANGES[control] if reduced is None else reduced, 0.0, inf)
+    low_ratio, high_ratio = _range("radius_ratio", radius_ratio, 1.0, inf, "[]")
+    wanted = _TOLERANCES[control] if tolerance is None else scalar("tolerance", tolerance, "")
+    in_range("tolerance", np.asarray(wanted), 1e-10, 1e-2)
+    task = Task((float(angles[0]), float(angles[1])), control == "volume", low, high, low_ratio, high_ratio, wanted)
+    grid = build_grid(task)
+    bound = measure(grid, task)
+    reached_and_asked = (("force", bound.force, wanted), ("rupture distance", bound.rupture, 0.1 * wanted))
+    for name, reached, asked in reached_and_asked:
+        if not reached <= asked:
+            warnings.warn(
+                f"tolerance: the error of the {name} is {reached:.1e}, not below {asked:.1e}",
+                ToleranceWarning,
+                stacklevel=2,
+            )
+    return Table(task.angles, control, (low, high), (low_ratio, high_ratio), wanted, bound, version("pendular"), grid)
+
+
+def _range(name: str, pair: tuple[float, float], low: float, high: float, brackets: str = "()") -> tuple[float, float]:
+    """Two ascending numbers."""
+    values = quantity(name, pair, "", allow_inf=True)
+    if values.shape != (2,) or not values[0] <= values[1]:
+        raise ValueError(f"{name}: {pair!r} is not two ascending numbers")
+    in_range(name, values, low, high, brackets=brackets)
+    return float(values[0]), float(values[1])
+
+
+def load_table(path: str | PathLike[str]) -> Table:
+    """Load a table, and verify its checksum.
+
+    Parameters
+    ----------
+    path : path
+        Of a file written by :meth:`Table.save`.
+
+    Returns
+    -------
+    Table
+
+    Raises
+    ------
+    ValueError
+        If the file cannot be read, is damaged, or of another format.
+    """
+    found, arrays = load(Path(path))
+    low_ratio, high_ratio = (float(ratio) for ratio in found["radius_ratio"])
+    theta1, theta2 = found["contact_angle"]
+    low, high = found["reduced"]
+    shift, first, cells = found["cut"]
+    least, most, least_ratio, largest_ratio = found["range"]
+    force, rupture, liquid, bridges = found["bound"]
+    grid = Grid(
+        **{name: arrays[name] for name in _ARRAYS},
+        shift=shift,
+        first=first,
+        cells=cells,
+        low=least,
+        high=most,
+        least_ratio=least_ratio,
+        largest_ratio=largest_ratio,
+        sides=1 if theta1 == theta2 else 2,
+        is_volume=found["control"] == "volume",
+    )
+    return Table(
+        (theta1, theta2),
+        found["control"],
+        (low, high),
+        (low_ratio, high_ratio),
+        found["tolerance"],
+        Bound(force, rupture, liquid, bridges),
+        found["version"],
+        grid,
+    )

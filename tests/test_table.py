@@ -1,0 +1,247 @@
+"""The table against the exact solver, which it was made from, at bridges it was not made from."""
+
+import math
+from contextlib import suppress
+
+import numpy as np
+import pytest
+
+import pendular as pl
+from pendular.table import arrays, kernels
+from pendular.table.measure import Bound
+
+GAMMA = 0.0728
+SEED = 20261122
+
+
+@pytest.fixture(scope="module")
+def table():
+    return pl.tabulate(math.radians(20), reduced=(0.1, 1e5))
+
+
+@pytest.fixture(scope="module")
+def two_angles():
+    return pl.tabulate((0.2, 0.9), reduced=(1.0, 1e3), tolerance=1e-7)
+
+
+@pytest.fixture(scope="module")
+def volume_table():
+    return pl.tabulate(math.radians(20), "volume", reduced=(1e-3, 4e-3), radius_ratio=(1.5, 4), tolerance=1e-6)
+
+
+def contacts(count, table, largest_ratio=8.0, beyond=1.0):
+    """Random radii and controls in the range of a table, and gaps up to a share of the rupture distance."""
+    print(f"seed {SEED}")
+    random = np.random.default_rng(SEED)
+    low_ratio = max(1.001, table.radius_ratio[0])
+    radius1 = 10.0 ** random.uniform(-6, -4, count)
+    radius2 = radius1 * random.uniform(low_ratio, min(largest_ratio, table.radius_ratio[1]), count)
+    radius1, radius2 = np.where(random.uniform(size=count) < 0.5, (radius1, radius2), (radius2, radius1))
+    mean = 2.0 * radius1 * radius2 / (radius1 + radius2)
+    reduced = np.exp(random.uniform(*np.log(table.reduced), count))
+    control = reduced * mean**3 if table.control == "volume" else reduced * GAMMA / mean
+    rupture = table.rupture_distance(control, radius1, radius2, GAMMA)
+    q = random.uniform(0.01, 1.0, count)
+    return rupture * (1.0 - q * q) * beyond, control, radius1, radius2
+
+
+def exact(table, separation, control, radius1, radius2):
+    pair = pl.Pair((radius1, radius2), table.contact_angle)
+    liquid = pl.Liquid(surface_tension=GAMMA)
+    return pl.bridge(pair, separation, **{table.control: control}, liquid=liquid)
+
+
+@pytest.mark.parametrize("name", ["table", "two_angles", "volume_table"])
+def test_bound_holds_in_si_units(name, request):
+    table = request.getfixturevalue(name)
+    x = contacts(400 if table.control == "volume" else 4000, table)
+    bridge = exact(table, *x)
+    contact = exact(table, 0.0, *x[1:])
+    assert table.bound.force <= table.tolerance
+    error = np.abs(table.force(*x, GAMMA) - bridge.force) / contact.force
+    assert error.max() <= 2.0 * table.tolerance
+    liquid = table.suction if table.control == "volume" else table.volume
+    truth, at_contact = (getattr(b, "suction" if table.control == "volume" else "volume") for b in (bridge, contact))
+    assert (np.abs(liquid(*x, GAMMA) - truth) / np.abs(at_contact)).max() <= 3.0 * table.bound.liquid
+
+
+def test_rupture_distance(table):
+    _, control, radius1, radius2 = contacts(2000, table)
+    pair = pl.Pair((radius1, radius2), table.contact_angle)
+    fold = pl.rupture(pair, suction=control, liquid=pl.Liquid(surface_tension=GAMMA)).separation
+    assert table.rupture_distance(control, radius1, radius2, GAMMA) == pytest.approx(fold, rel=1e-9)
+
+
+def test_stiffness_is_that_of_the_bridge(table):
+    x = contacts(500, table)
+    bridge = exact(table, *x)
+    mean = 2.0 * x[2] * x[3] / (x[2] + x[3])
+    rupture = table.rupture_distance(*x[1:], GAMMA)
+    far = x[0] < 0.99 * rupture
+    error = np.abs(table.stiffness(*x, GAMMA) - bridge.stiffness) * rupture / (GAMMA * mean)
+    assert error[far].max() < 1e-5
+
+
+@pytest.mark.parametrize("name", ["table", "volume_table"])
+def test_force_is_the_rate_of_the_energy(name, request):
+    table = request.getfixturevalue(name)
+    x = contacts(300, table)
+    inside = x[0] < 0.98 * table.rupture_distance(*x[1:], GAMMA)
+    separation, control, radius1, radius2 = (operand[inside] for operand in x)
+    step = 1e-5 * separation
+    higher, lower = (table.energy(separation + s, control, radius1, radius2, GAMMA) for s in (step, -step))
+    force = table.force(separation, control, radius1, radius2, GAMMA)
+    assert (higher - lower) / (2.0 * step) == pytest.approx(force, rel=1e-5)
+
+
+def test_energy_is_the_grand_potential_below_that_at_rupture(table):
+    x = contacts(300, table)
+    pair = pl.Pair((x[2], x[3]), table.contact_angle)
+    end = pl.rupture(pair, suction=x[1], liquid=pl.Liquid(surface_tension=GAMMA))
+    work = end.grand_potential - exact(table, *x).grand_potential
+    largest = end.grand_potential - exact(table, 0.0, *x[1:]).grand_potential
+    assert np.max(np.abs(-table.energy(*x, GAMMA) - work) / largest) < 1e-7
+
+
+def test_plane_and_equal_spheres(table):
+    for radii in ((1e-5, math.inf), (math.inf, 1e-5), (1e-5, 1e-5)):
+        bridge = exact(table, 1e-7, 1e4, *radii)
+        assert table.force(1e-7, 1e4, *radii, GAMMA) == pytest.approx(bridge.force, rel=1e-7)
+
+
+def test_exchange_of_the_solids(two_angles):
+    mirrored = pl.tabulate(two_angles.contact_angle[::-1], reduced=(1.0, 1e3), tolerance=1e-7)
+    separation, control, radius1, radius2 = contacts(500, two_angles)
+    here = two_angles.force(separation, control, radius1, radius2, GAMMA)
+    assert mirrored.force(separation, control, radius2, radius1, GAMMA) == pytest.approx(here, rel=1e-6)
+
+
+def test_nothing_beyond_rupture(table):
+    rupture = table.rupture_distance(1e4, 1e-5, 2e-5, GAMMA)
+    gaps = [rupture * 1.0000001, 1.0, math.inf]
+    assert table.force(gaps, 1e4, 1e-5, 2e-5, GAMMA).tolist() == [0.0, 0.0, 0.0]
+    assert table.energy(gaps, 1e4, 1e-5, 2e-5, GAMMA).tolist() == [0.0, 0.0, 0.0]
+    assert np.isnan(table.volume(gaps, 1e4, 1e-5, 2e-5, GAMMA)).all()
+    assert np.isnan(table.stiffness(gaps, 1e4, 1e-5, 2e-5, GAMMA)).all()
+
+
+def test_overlap_counts_as_contact(table):
+    force = table.force([0.0, -1e-8, -1e-6], 1e4, 1e-5, 2e-5, GAMMA)
+    assert force[0] == force[1] == force[2] > 0.0
+    energy = table.energy([0.0, -1e-8], 1e4, 1e-5, 2e-5, GAMMA)
+    assert energy[0] - energy[1] == pytest.approx(force[0] * 1e-8, rel=1e-6)
+
+
+@pytest.mark.parametrize("place", range(5))
+def test_nan_in_nan_out(table, place):
+    arguments = [1e-7, 1e4, 1e-5, 2e-5, GAMMA]
+    arguments[place] = math.nan
+    assert math.isnan(table.force(*arguments))
+    assert math.isnan(kernels.force(table.grid, *arguments))
+    out = np.empty(3)
+    operands = tuple(np.array([argument]) for argument in arguments)
+    arrays.block_range(arrays.FORCE, table.grid, operands, out, 0, 3)
+    assert np.isnan(out).all()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ((0.0, 1e12, 1e-5, 1e-5, GAMMA), "reduced suction"),
+        ((0.0, 0.0, 1e-5, 1e-5, GAMMA), "reduced suction: 0 is not in"),
+        ((0.0, -1e4, 1e-5, 1e-5, GAMMA), "reduced suction: -"),
+    ],
+)
+def test_outside_the_range_is_refused(table, arguments, message):
+    with pytest.raises(ValueError, match=message):
+        table.force(*arguments)
+
+
+def test_size_ratio_outside_the_range_is_refused(volume_table):
+    with pytest.raises(ValueError, match=r"radius ratio: 1 is not in \[1.5, 4\]"):
+        volume_table.force(0.0, 1e-18, 1e-5, 1e-5, GAMMA)
+
+
+def test_scalar_kernel_is_the_array(table):
+    x = contacts(300, table, beyond=1.05)
+    force = table.force(*x, GAMMA)
+    one_by_one = [kernels.force(table.grid, *row, GAMMA) for row in np.column_stack(x).tolist()]
+    assert one_by_one == pytest.approx(force, rel=1e-9, abs=1e-9 * np.abs(force).max())
+
+
+def test_threads_change_nothing(table):
+    x = contacts(200_000, table)
+    whole = table.force(*x, GAMMA)
+    parts = [table.force(*(operand[i : i + 977] for operand in x), GAMMA) for i in range(0, 200_000, 977)]
+    assert np.array_equal(whole, np.concatenate(parts))
+
+
+def test_out_is_filled(table):
+    out = np.empty(3)
+    assert table.force([0.0, 1e-8, 1e-7], 1e4, 1e-5, 1e-5, GAMMA, out=out) is not None
+    assert out.tolist() == table.force([0.0, 1e-8, 1e-7], 1e4, 1e-5, 1e-5, GAMMA).tolist()
+    with pytest.raises(ValueError, match=r"out: is not a contiguous float64 array of shape \(3,\)"):
+        table.force([0.0, 1e-8, 1e-7], 1e4, 1e-5, 1e-5, GAMMA, out=np.empty(4))
+
+
+@pytest.mark.parametrize("control", [1e3, 1e5, 1e8])
+def test_curve_is_the_table_at_one_pair(table, control):
+    curve = table.curve(control, 1e-5, 3e-5, GAMMA)
+    gaps = np.linspace(-0.1, 1.1, 1000) * curve.rupture_distance
+    force = table.force(gaps, control, 1e-5, 3e-5, GAMMA)
+    assert np.abs(curve.force(gaps) - force).max() < table.tolerance * force[0]
+    assert curve.force(math.inf) == 0.0
+    assert math.isnan(curve.force(math.nan))
+    with pytest.raises(ValueError, match="reduced suction"):
+        table.curve(1e15, 1e-5, 3e-5, GAMMA)
+
+
+def test_file_gives_the_same_table(table, tmp_path):
+    path = tmp_path / "glass.npz"
+    table.save(path)
+    loaded = pl.load_table(path)
+    assert path.stat().st_size < 5e6
+    assert (loaded.bound, loaded.contact_angle, loaded.reduced) == (table.bound, table.contact_angle, table.reduced)
+    x = contacts(100, table)
+    assert np.array_equal(loaded.force(*x, GAMMA), table.force(*x, GAMMA))
+
+
+def test_damaged_file_is_refused(volume_table, tmp_path):
+    path = tmp_path / "t.npz"
+    volume_table.save(path)
+    whole = path.read_bytes()
+    for place in np.linspace(50, len(whole) - 50, 40).astype(int):
+        damaged = bytearray(whole)
+        damaged[place] ^= 0x10
+        path.write_bytes(damaged)
+        with suppress(ValueError):  # unless the byte is of the archive's own directory and says nothing about the table
+            assert np.array_equal(pl.load_table(path).grid.force, volume_table.grid.force)
+    path.write_bytes(whole[:-100])
+    with pytest.raises(ValueError, match=r"path: '.*t.npz' is not a table, or damaged"):
+        pl.load_table(path)
+    path.write_bytes(b"no table")
+    with pytest.raises(ValueError, match="is not a table, or damaged"):
+        pl.load_table(path)
+
+
+def test_a_bound_that_is_not_reached_is_said(monkeypatch):
+    reached = Bound(force=3e-6, rupture=1e-9, liquid=1e-5, bridges=1)
+    monkeypatch.setattr("pendular.table.table.measure", lambda grid, task: reached)
+    with pytest.warns(pl.ToleranceWarning, match="error of the force is 3.0e-06, not below 1.0e-06"):
+        table = pl.tabulate(0.3, reduced=(20.0, 30.0), radius_ratio=(1, 2), tolerance=1e-6)
+    assert table.bound == reached
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"control": "humidity"}, "control: 'humidity' is not one of"),
+        ({"reduced": (2.0, 1.0)}, "reduced: .* is not two ascending numbers"),
+        ({"reduced": (0.0, 1.0)}, "reduced"),
+        ({"radius_ratio": (0.5, 2.0)}, "radius_ratio"),
+        ({"tolerance": 1e-20}, "tolerance"),
+    ],
+)
+def test_bad_input(options, message):
+    with pytest.raises(ValueError, match=message):
+        pl.tabulate(0.3, **options)
