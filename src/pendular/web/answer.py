@@ -1,0 +1,94 @@
+"""What the library says to the question of a view: all that the page shows."""
+
+import math
+import warnings
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..bridges import Bridge, ConvergenceWarning, bridge, curve, rupture
+from ..by_law import RangeWarning
+from ..laws import Law, laws
+from ..liquid import KelvinWarning
+from ..question import Question
+from ..units import read
+from .view import View, question
+
+__all__ = ["Answer", "LawAnswer", "answer_to"]
+
+Floats = NDArray[np.float64]
+
+_CURVE_POINTS, _LAW_POINTS = 121, 121  # enough to look smooth at the width of a screen
+_OTHER_POINTS = 41  # of a law of the other control, which needs an exact bridge for each
+_BEYOND = 1.3  # over the exact rupture distance: where a law that knows none is drawn to
+
+
+class LawAnswer(NamedTuple):
+    """What a law says at the state of a view, beside the exact answer."""
+
+    law: Law
+    force_error: float  # relative, -1 where the law has no bridge; NaN where either says nothing
+    rupture_error: float
+    outside: str  # why the law is not meant for this state; empty if it is
+    separation: Floats  # its curve, [m]; empty unless it is wanted
+    force: Floats  # [N], NaN where it says nothing
+
+
+class Answer(NamedTuple):
+    """A view, and the bridges that it asks for."""
+
+    view: View
+    question: Question
+    separation: float  # [m]
+    state: Bridge
+    curve: Bridge
+    rupture: Bridge
+    instability: Bridge | None
+    laws: tuple[LawAnswer, ...]
+    notices: tuple[str, ...]  # warnings of the library
+
+
+def answer_to(view: View) -> Answer:
+    """Ask the library what a view shows; ValueError in one line for what cannot be meant."""
+    asked = question(view)
+    gap = read("separation", view.separation, "m", "3um")
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("ignore")
+        for category in (KelvinWarning, ConvergenceWarning):
+            warnings.simplefilter("always", category)
+        state, end = asked.put_to(bridge, gap), asked.put_to(rupture)
+        states = asked.put_to(curve, points=_CURVE_POINTS)
+        first = asked.instability(end) if end.exists else None
+    notices = tuple(dict.fromkeys(str(warning.message) for warning in caught))
+    lawful = tuple(_ask_law(law, view, asked, state, end) for law in laws.values())
+    return Answer(view, asked, gap, state, states, end, first, lawful, notices)
+
+
+def _ask_law(law: Law, view: View, asked: Question, state: Bridge, end: Bridge) -> LawAnswer:
+    """Errors of a law at a state, and its curve if it is to be drawn."""
+    force_error = rupture_error = last = math.nan
+    separation = force = np.empty(0)
+    is_own = (law.control == "volume") == (view.control == "volume")
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        if "force" in law.gives and state.exists:
+            force_error = _relative(asked.put_to(bridge, state.separation, method=law.name).force, state.force)
+        if "rupture" in law.gives and is_own:
+            last = float(asked.put_to(rupture, method=law.name).separation)
+            rupture_error = _relative(last, end.separation) if end.exists else math.nan
+        if "force" in law.gives and law.name in view.laws:
+            reach = last if last > 0.0 else float(end.separation) * (_BEYOND if is_own else 1.0)
+            if math.isfinite(reach):
+                # Dense towards rupture, where forces are steep.
+                separation = reach * np.sin(np.linspace(0.0, 0.5 * math.pi, _LAW_POINTS if is_own else _OTHER_POINTS))
+                drawn = asked.put_to(bridge, separation, method=law.name)
+                force = np.where(drawn.exists, drawn.force, np.nan)
+    outside = next((str(warning.message) for warning in caught if issubclass(warning.category, RangeWarning)), "")
+    outside = outside.partition(";")[0].removeprefix(f"{law.name}: ").removesuffix(" of the law")
+    return LawAnswer(law, force_error, rupture_error, outside, separation, force)
+
+
+def _relative(value: Any, exact: Any) -> float:
+    """(value - exact)/exact."""
+    return float(value) / float(exact) - 1.0 if exact else math.nan
