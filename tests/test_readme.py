@@ -1,13 +1,13 @@
 """The README: its Python prints what it says, its command draws the picture that it shows."""
 
-import contextlib
-import io
 import re
 import shlex
 from pathlib import Path
 
 import pytest
+from tools.code_blocks import code_blocks, section
 
+from documents import assert_python_prints_what_it_says
 from pendular.cli import main
 
 ROOT = Path(__file__).parents[1]
@@ -16,18 +16,12 @@ README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 def block(heading: str) -> str:
     """The one code block under a heading."""
-    (section,) = re.findall(rf"^## {heading}\n(.*?)(?=^## |\Z)", README, re.MULTILINE | re.DOTALL)
-    (code,) = re.findall(r"^```\w+\n(.*?)^```", section, re.MULTILINE | re.DOTALL)
-    return code
+    (found,) = code_blocks(section(README, heading))
+    return found.code
 
 
 def test_python_prints_what_the_comments_say():
-    code = block("In Python") + block("The paper behind it, and the laws")
-    told = re.findall(r"^print\(.*\)  # (.+)$", code, re.MULTILINE)
-    with contextlib.redirect_stdout(io.StringIO()) as printed:
-        exec(code, {})
-    assert printed.getvalue().splitlines() == told
-    assert len(told) == code.count("print(")
+    assert_python_prints_what_it_says(README)
 
 
 @pytest.mark.parametrize("heading", ["Run", "Test"])

@@ -8,13 +8,29 @@ if TYPE_CHECKING:
     from . import laws
     from .bridges import Bridge, ConvergenceWarning, Pair, Profile, bridge, curve, rupture
     from .by_law import RangeWarning
+    from .comparison import Comparison, ErrorMap, Recommendation, compare, error_map, recommend
+    from .contacts import BridgeState, ContactForces, contact_energy, contact_forces
     from .dataset import load_dataset, make_dataset, save_dataset
     from .interpolation import interpolate, interpolate_rupture, interpolation_error
     from .liquid import KelvinWarning, Liquid, humidity_from_suction, suction_from_humidity
 
 # The public names and where they live. Loaded on first use: the help text of the command needs none of them.
 _HOME = {
+    "Table": "table",
+    "ToleranceWarning": "table",
+    "load_table": "table",
+    "tabulate": "table",
+    "BridgeState": "contacts",
+    "ContactForces": "contacts",
+    "contact_energy": "contacts",
+    "contact_forces": "contacts",
     "Bridge": "result",
+    "Comparison": "comparison",
+    "ErrorMap": "comparison",
+    "Recommendation": "comparison",
+    "compare": "comparison",
+    "error_map": "comparison",
+    "recommend": "comparison",
     "RangeWarning": "by_law",
     "ConvergenceWarning": "problem",
     "Pair": "pair",
@@ -36,25 +52,39 @@ _HOME = {
 
 __all__ = [
     "Bridge",
+    "BridgeState",
+    "Comparison",
+    "ContactForces",
     "ConvergenceWarning",
+    "ErrorMap",
     "KelvinWarning",
     "Liquid",
     "Pair",
     "Profile",
     "RangeWarning",
+    "Recommendation",
+    "Table",
+    "ToleranceWarning",
     "__version__",
     "bridge",
+    "compare",
+    "contact_energy",
+    "contact_forces",
     "curve",
+    "error_map",
     "humidity_from_suction",
     "interpolate",
     "interpolate_rupture",
     "interpolation_error",
     "laws",
     "load_dataset",
+    "load_table",
     "make_dataset",
+    "recommend",
     "rupture",
     "save_dataset",
     "suction_from_humidity",
+    "tabulate",
 ]
 
 

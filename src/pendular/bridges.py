@@ -36,7 +36,7 @@ def bridge(
     r"""Capillary bridge between two solids at a separation, exactly.
 
     .. math:: \frac{Y''}{(1+Y'^2)^{3/2}} - \frac{1}{Y\sqrt{1+Y'^2}} = \frac{\Delta p}{\gamma}
-        \qquad \text{(Zhao et al. [1]_, Eq. 8)}, \qquad F = 2\pi\gamma\lambda \qquad \text{(Eq. 11)}
+        \qquad \text{(Zhao et al. 2020, Eq. 8)} \\ F = 2\pi\gamma\lambda \qquad \text{(Eq. 11)}
 
     Parameters
     ----------
@@ -56,7 +56,8 @@ def bridge(
         Of the two bridges that meet at the rupture distance: the one connected with the contact, or the other.
     method : str
         ``"exact"``; ``"dataset"``, the interpolation of the paper; or the name of a law in ``pendular.laws``. But for
-        the exact method the answer holds the force only.
+        the exact method the answer holds the force only. A law of the other control is asked with the volume or the
+        suction of the exact bridge; one at constant suction has no answer where that suction would not hold the bridge.
 
     Returns
     -------
@@ -73,7 +74,7 @@ def bridge(
     KelvinWarning
         Where the Kelvin equation is doubtful, or the humidity does not fix the force.
     RangeWarning
-        Where a law is asked outside its published range, once a call.
+        Where a law is asked outside its range, once a call.
     ConvergenceWarning
         Where the solver failed; the fields are NaN there.
 
@@ -130,7 +131,7 @@ def rupture(
         at constant volume between equal solids of equal contact angle, above about 31°, where the liquid slides to one
         side before the fold.
     method : str
-        ``"exact"``, ``"dataset"``, or the name of a law in ``pendular.laws``.
+        ``"exact"``, ``"dataset"``, or the name of a law of the given control in ``pendular.laws``.
 
     Returns
     -------

@@ -101,7 +101,7 @@ def make_dataset(
     r"""Data base of bridges over half-filling angle and neck ratio.
 
     .. math:: H = \frac{2(Y_0 - Y_{cs}\sin\beta_s)}{Y_{cs}^2 - Y_0^2}, \qquad \lambda = Y_0 + \tfrac12 H Y_0^2
-              \qquad \text{(Zhao et al. [1]_, Eq. 10)}, \qquad 2S = S_s + S_L \qquad \text{(Eq. 12)}
+              \qquad \text{(Zhao et al. 2020, Eq. 10)}, \qquad 2S = S_s + S_L \qquad \text{(Eq. 12)}
 
     Parameters
     ----------

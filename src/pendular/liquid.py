@@ -211,7 +211,7 @@ def suction_from_humidity(
 ) -> np.float64 | NDArray[np.float64]:
     r"""Suction in equilibrium with a relative humidity, by the Kelvin equation.
 
-    .. math:: \Delta p = -\rho\, R_v T \ln h, \qquad R_v = R/M \qquad \text{(Zhao et al. [1]_, Eqs. 15-16)}
+    .. math:: \Delta p = -\rho\, R_v T \ln h, \qquad R_v = R/M \qquad \text{(Zhao et al. 2020, Eqs. 15-16)}
 
     Parameters
     ----------
@@ -258,7 +258,7 @@ def humidity_from_suction(
 ) -> np.float64 | NDArray[np.float64]:
     r"""Relative humidity in equilibrium with a suction, the inverse of `suction_from_humidity`.
 
-    .. math:: h = \exp\!\left(-\frac{\Delta p}{\rho\, R_v T}\right) \qquad \text{(Zhao et al. [1]_, Eq. 15)}
+    .. math:: h = \exp\!\left(-\frac{\Delta p}{\rho\, R_v T}\right) \qquad \text{(Zhao et al. 2020, Eq. 15)}
 
     Parameters
     ----------

@@ -1,0 +1,52 @@
+"""How the site is built: ``sphinx-build -W docs out/site``; nothing on its pages comes from the network."""
+
+import sys
+from importlib.metadata import version as version_of
+from pathlib import Path
+
+from sphinx.application import Sphinx
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE.parent))  # for the tools of the repository
+
+project = "Pendular"
+author = "The Pendular developers"
+project_copyright = author
+version = release = version_of("pendular")
+
+extensions = [
+    "myst_parser",
+    "numpydoc",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.mathjax",
+    "sphinx-mathjax-offline",  # the files of MathJax, copied into the site
+    "sphinx_copybutton",
+]
+exclude_patterns = ["made/*.md"]  # written by the build, for other pages to include
+
+myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 3
+myst_dmath_double_inline = True
+autodoc_typehints = "none"  # the docstrings tell more
+autodoc_member_order = "bysource"
+numpydoc_show_class_members = False
+copybutton_prompt_text = "$ "
+copybutton_only_copy_prompt_lines = True
+
+html_theme = "furo"
+html_title = "Pendular"
+html_static_path = ["static"]
+html_css_files = ["site.css"]
+html_copy_source = False
+html_show_sphinx = False
+html_theme_options = {
+    "light_css_variables": {"color-brand-primary": "#15607a", "color-brand-content": "#15607a"},
+    "dark_css_variables": {"color-brand-primary": "#7cc4dd", "color-brand-content": "#7cc4dd"},
+}
+
+
+def setup(app: Sphinx) -> None:
+    """Have the pictures and tables of the site made before its pages are read."""
+    from tools.site_parts import make
+
+    app.connect("builder-inited", lambda app: make(Path(app.srcdir)))

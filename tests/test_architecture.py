@@ -1,0 +1,52 @@
+"""The page of the architecture shows the import contract, and the contract covers every module."""
+
+from pathlib import Path
+
+import pytest
+from tools import architecture
+
+import pendular
+
+PACKAGE = Path(pendular.__file__).parent
+LAYERED = [contract for contract in architecture.contracts() if contract["type"] == "layers"]
+
+
+def by_name(contract):
+    return contract["name"]
+
+
+def modules(container):
+    """Modules in a package, by the files on disk."""
+    folder = PACKAGE.joinpath(*container.split(".")[1:])
+    files = {path.stem for path in folder.glob("*.py")}
+    packages = {path.name for path in folder.iterdir() if any(path.glob("*.py"))}
+    return (files | packages) - {"__init__"}
+
+
+def test_the_page_is_what_the_command_writes():
+    text = architecture.PAGE.read_text("utf-8")
+    assert text == architecture.page(text), "run python -m tools.architecture"
+
+
+@pytest.mark.parametrize("contract", LAYERED, ids=by_name)
+def test_every_module_has_its_place(contract):
+    (container,) = contract["containers"]
+    named = [name for layer in contract["layers"] for name in architecture.names(layer)]
+    assert len(named) == len(set(named))
+    assert set(named) == modules(container)
+
+
+@pytest.mark.parametrize("contract", LAYERED, ids=by_name)
+def test_every_module_says_what_it_is(contract):
+    (container,) = contract["containers"]
+    for layer in contract["layers"]:
+        for name in architecture.names(layer):
+            assert architecture.purpose(f"{container}.{name}").endswith("."), name
+
+
+def test_the_diagram_stacks_the_layers_in_order():
+    text = architecture.PAGE.read_text("utf-8")
+    for contract in LAYERED:
+        rows = [line.strip("│").strip() for line in architecture.diagram(contract["layers"]) if line.startswith("│")]
+        assert rows == contract["layers"]
+        assert "\n".join(architecture.diagram(contract["layers"])) in text

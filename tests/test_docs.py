@@ -1,0 +1,131 @@
+"""The pages of the site: their code runs and prints what they show, and they cover what is public."""
+
+import importlib
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+from tools import site_parts
+from tools.code_blocks import code_blocks
+
+import pendular as pl
+from documents import (
+    assert_commands_do_what_they_show,
+    assert_python_prints_what_it_says,
+    can_be_run,
+    command_output,
+    python_runs,
+)
+from pendular.laws import laws
+from pendular.result import FIELDS
+
+ROOT = Path(__file__).parents[1]
+DOCS = ROOT / "docs"
+PAGES = {str(path.relative_to(DOCS)): path for path in sorted(DOCS.glob("**/*.md")) if "made" not in path.parts}
+
+# Pages that a command writes or that need another program, and the test that runs their code.
+ELSEWHERE = {
+    "laws.md": "test_law_pages.py",
+    "yade.md": "test_yade.py",
+    "explorer.md": "test_web_page.py",
+    "speed.md": "test_table.py",
+    "c_header.md": "test_c_header.py",
+    "lammps.md": "test_lammps.py",
+}
+OWN = [name for name in PAGES if name not in ELSEWHERE]
+
+
+@pytest.mark.parametrize("name", sorted(ELSEWHERE.keys() & PAGES.keys()))
+def test_code_that_is_run_elsewhere_has_a_test(name):
+    assert (ROOT / "tests" / ELSEWHERE[name]).is_file()
+
+
+def text_of(name: str) -> str:
+    return PAGES[name].read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", OWN)
+def test_code_of_the_page_does_what_it_shows(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "made").mkdir()
+    (tmp_path / "docs").symlink_to(DOCS)  # for code that reads files of the repository
+    assert_commands_do_what_they_show(text_of(name))
+    assert_python_prints_what_it_says(text_of(name))
+
+
+@pytest.mark.parametrize("name", OWN)
+def test_every_code_block_has_a_language_that_is_run(name):
+    languages = {block.language for block in code_blocks(text_of(name))}
+    assert languages <= {"python", "console", "sh", "text"}
+    assert text_of(name).count("\n```\n") >= len(code_blocks(text_of(name)))
+
+
+def test_a_wrong_promise_is_found():
+    ((_, printed, told),) = python_runs("```python\nprint(1 + 1)  # 3\n```\n")
+    assert printed != told
+    ((_, printed, told),) = python_runs("```python\nprint(1 + 1)\n```\n\n```text\n3\n```\n")
+    assert printed != told
+    with pytest.raises(AssertionError):
+        assert_commands_do_what_they_show("```console\n$ pendular --version\npendular 0\n```\n")
+    with pytest.raises(AssertionError):
+        assert_commands_do_what_they_show("```sh\nno-such-program\n```\n")
+
+
+def test_all_public_names_are_in_the_reference():
+    reference = "".join(path.read_text("utf-8") for path in (DOCS / "reference").glob("*.md"))
+    documented = set(re.findall(r"^\.\. auto\w+:: (\w+)", reference, re.MULTILINE))
+    assert {name for name in pl.__all__ if name not in ("laws", "__version__")} <= documented
+    assert {name for name in importlib.import_module("pendular.laws").__all__ if name != "laws"} <= documented
+
+
+def test_generated_parts_cover_their_subject():
+    assert sum(line.startswith("| `") for line in site_parts.fields()) == len(FIELDS)
+    assert {line[3:] for line in site_parts.law_functions() if line.startswith("## ")} == set(laws)
+    _, help_text, _ = command_output("pendular --help")
+    listed = re.findall(r"^  (\w+) ", help_text.partition("Commands:")[2].partition("Example")[0], re.MULTILINE)
+    shown = [line[3:].split()[0] for line in site_parts.command_pages() if line.startswith("## ")]
+    assert list(dict.fromkeys(shown)) == listed
+
+
+def test_commands_for_contributors_can_be_run():
+    text = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
+    in_text = re.findall(r"`(uv run [^`]+|\.ci/run)`", text)
+    in_blocks = [
+        line.strip() for block in re.findall(r"^ *```sh\n(.*?)```", text, re.M | re.S) for line in block.splitlines()
+    ]
+    assert len(in_text) > 10
+    for line in filter(None, in_text + in_blocks):
+        words = shlex.split(line.removeprefix("uv run ").removeprefix("--group docs "))
+        if words[:2] == ["python", "-m"]:
+            assert (ROOT / Path(*words[2].split("."))).with_suffix(".py").is_file(), line
+        else:
+            assert can_be_run(words[0], words[1:]), line
+        assert all((ROOT / word).exists() for word in words if word.startswith("tests/")), line
+
+
+def test_files_named_to_contributors_exist():
+    text = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
+    for name in re.findall(r"`((?:src|tests|docs|tools)/[\w/.]+)`", text):
+        assert (ROOT / name).exists() or "author_year" in name, name
+
+
+def test_citation_is_of_this_version():
+    citation = (ROOT / "CITATION.cff").read_text("utf-8")
+    assert f"\nversion: {pl.__version__}\n" in citation
+
+
+def test_a_page_that_loads_from_elsewhere_is_found():
+    site = pytest.importorskip("tools.site", reason="the site's tools are not installed")
+    assert site.loaded_from_outside('<script src="https://host/x.js">') == ["https://host/x.js"]
+    assert site.loaded_from_outside('<link rel="stylesheet" href="//host/x.css">') == ["//host/x.css"]
+    assert site.loaded_from_outside('<a href="https://host"><img src="made/x.svg">') == []
+
+
+def test_pages_name_no_address_outside_and_no_missing_file():
+    for name, path in PAGES.items():
+        for target in re.findall(
+            r"\]\(([^)#]+)(?:#[^)]*)?\)", re.sub(r"```.*?```", "", text_of(name), flags=re.DOTALL)
+        ):
+            if not target.startswith("http"):
+                assert "made/" in target or (path.parent / target).exists(), f"{name}: {target}"

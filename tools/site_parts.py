@@ -1,0 +1,125 @@
+"""What the site shows of the program, made anew at each build: ``make`` writes it to ``docs/made``.
+
+Tables come from the records behind them, pictures from the commands that stand beside them on the pages.
+"""
+
+import contextlib
+import importlib
+import io
+import runpy
+import shlex
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import typer
+from tools.code_blocks import code_blocks, commands
+from tools.site_pictures import PICTURES
+
+from pendular.cli import app
+from pendular.cli import main as pendular
+from pendular.laws import LAWS
+from pendular.paper.claims import Claim, measure
+from pendular.result import FIELDS
+
+ROOT = Path(__file__).parents[1]
+
+
+def make(docs: Path) -> None:
+    """Write all parts of the site that its pages include."""
+    made = docs / "made"
+    made.mkdir(exist_ok=True)
+    parts = {"fields": fields, "commands": command_pages, "claims": claims, "law_functions": law_functions}
+    for name, part in parts.items():
+        (made / f"{name}.md").write_text("\n".join(part()) + "\n", encoding="utf-8")
+    for name, draw in PICTURES.items():
+        draw(made / f"{name}.svg")
+    with contextlib.chdir(docs):
+        for page in sorted(docs.glob("**/*.md")):
+            for command in drawing_commands(page.read_text(encoding="utf-8")):
+                run(command)
+
+
+def drawing_commands(text: str) -> list[str]:
+    """Return the commands of a page that draw a picture which the page shows."""
+    blocks = [block for block in code_blocks(text) if block.language in ("sh", "console")]
+    return [line for block in blocks for line in commands(block) if f"({shlex.split(line)[-1]})" in text]
+
+
+def run(command: str) -> None:
+    """Run a command of a page, ``pendular ...`` or ``python examples/...``, in this process and without its output."""
+    program, *arguments = shlex.split(command)
+    with contextlib.redirect_stdout(io.StringIO()):
+        if program == "python":
+            run_script(ROOT / arguments[0], arguments[1:])
+            return
+        try:
+            pendular(arguments)
+        except SystemExit as end:
+            if end.code:
+                raise RuntimeError(f"{command}: status {end.code}") from end
+
+
+def run_script(path: Path, arguments: list[str]) -> None:
+    """Run a script with arguments, as from the command line."""
+    before = sys.argv
+    sys.argv = [str(path), *arguments]
+    try:
+        runpy.run_path(str(path), run_name="__main__")
+    finally:
+        sys.argv = before
+
+
+def fields() -> Iterator[str]:
+    """Table of the fields of a bridge."""
+    yield from ("| field | unit | meaning |", "| --- | --- | --- |")
+    for name, unit, meaning in FIELDS:
+        yield f"| `{name}` | {unit.replace('^2', '²').replace('^3', '³') or '–'} | {meaning} |"
+
+
+def command_pages() -> Iterator[str]:
+    """Help of every command, as it prints itself."""
+    for path in command_paths(typer.main.get_command(app)):
+        with contextlib.redirect_stdout(io.StringIO()) as printed, contextlib.suppress(SystemExit):
+            pendular([*path, "--help"])
+        yield from ("", f"## {' '.join(path)}", "", "```text", printed.getvalue().strip("\n"), "```")
+
+
+def command_paths(group: Any) -> Iterator[list[str]]:
+    """Words that name each command; a group stands for those in it."""
+    for name, command in group.commands.items():
+        if hasattr(command, "commands"):
+            yield from ([name, *path] for path in command_paths(command))
+        else:
+            yield [name]
+
+
+def claims() -> Iterator[str]:
+    """The audit of the article: what it says, whether it holds, and what is found."""
+    for subject, audited in measure().items():
+        yield from ("", f"## {subject}", "", "| | statement | found here |", "| --- | --- | --- |")
+        yield from (claim_row(claim) for claim in audited)
+
+
+def claim_row(claim: Claim) -> str:
+    """A row of the audit."""
+    found = " ".join(f"{part.removesuffix('.')}." for part in (claim.measured, claim.why, claim.better) if part)
+    cells = ("holds" if claim.holds else "**fails**", f"{claim.says} *{claim.where}*", found)
+    return (
+        "| "
+        + " | ".join(cell.replace("H*", "H\\*").replace("V*", "V\\*").replace("λ*", "λ\\*") for cell in cells)
+        + " |"
+    )
+
+
+def law_functions() -> Iterator[str]:
+    """Formulas of all laws, from their docstrings."""
+    for law in LAWS:
+        module = f"pendular.laws.{law.name}"
+        yield from ("", f"## {law.name}", "", f"{law.title}. [Errors and pictures](../laws.md#{law.name}).", "")
+        written = importlib.import_module(module)
+        names = [name for name in written.__all__ if callable(getattr(written, name))]
+        yield from ("```{eval-rst}", f".. currentmodule:: {module}", "")
+        yield from (f".. autofunction:: {module}.{name}" for name in names)
+        yield "```"
