@@ -64,6 +64,22 @@ def numbers(name: str, value: object, unit: str) -> NDArray[np.float64]:
     return _real_array(name, _without_units(name, value, unit))
 
 
+def result_array(out: NDArray[np.float64] | None, shape: tuple[int, ...]) -> NDArray[np.float64]:
+    """Array for a result: a new one, or that which the caller gives, if it fits.
+
+    Examples
+    --------
+    >>> result_array(np.empty(3), (4,))
+    Traceback (most recent call last):
+        ...
+    ValueError: out: is not a contiguous float64 array of shape (4,)
+    """
+    result = np.empty(shape) if out is None else out
+    if result.shape != shape or result.dtype != np.float64 or not result.flags.c_contiguous:
+        raise ValueError(f"out: is not a contiguous float64 array of shape {shape}")
+    return result
+
+
 def scalar(name: str, value: object, unit: str) -> float:
     """Argument as one finite SI number.
 

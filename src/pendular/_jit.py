@@ -10,9 +10,11 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from numba import get_num_threads, njit
+from numpy.typing import NDArray
 
-__all__ = ["in_chunks", "kernel"]
+__all__ = ["element", "in_chunks", "kernel"]
 
 _HOME = Path(__file__).parent
 
@@ -36,6 +38,12 @@ def kernel(function: Callable[..., Any]) -> Any:
         is_exact = function.__module__.startswith("pendular.exact")
         cache_file._source_stamp = _stamp_of("exact") if is_exact else _stamp_of("exact", "laws", "table")
     return dispatcher
+
+
+@kernel
+def element(operand: NDArray[np.float64], i: int) -> float:
+    """Element i of an operand that is as long as the result or has one element for all."""
+    return operand[min(i, operand.size - 1)]
 
 
 def in_chunks(range_kernel: Callable[..., None], count: int, chunk: int, *arguments: Any) -> None:

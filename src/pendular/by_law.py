@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from .exact.middle import CURVATURE
 from .laws import Law, force_star, laws, rupture_star
+from .laws.ranges import first_outside
 from .problem import Problem, control_name, control_star, derjaguin_radius, partial_bridge, solve
 from .result import Bridge
 
@@ -108,15 +109,11 @@ def _variables(law: Law, control: Floats, solids: tuple[Floats, ...]) -> dict[st
 
 def _warn_outside(law: Law, variables: dict[str, Floats]) -> None:
     """Warn once, naming the first variable that leaves the range of the law."""
-    slack = 1e-12  # of an angle of 40° in radians, say
-    for name, values in variables.items():
-        low, high = law.valid.get(name, (-np.inf, np.inf))
-        outside = values[(values < low - slack * abs(low)) | (values > high + slack * abs(high))]
-        if outside.size:
-            warnings.warn(
-                f"{law.name}: {name} {outside[0]:.6g} is outside the range {low:.6g} to {high:.6g} of the law; "
-                f"{law.valid_text}",
-                RangeWarning,
-                stacklevel=4,
-            )
-            return
+    outside = first_outside(law.valid, variables)
+    if outside is not None:
+        warnings.warn(
+            f"{law.name}: {outside.name} {outside.value:.6g} is outside the range {outside.low:.6g} to "
+            f"{outside.high:.6g} of the law; {law.valid_text}",
+            RangeWarning,
+            stacklevel=4,
+        )

@@ -6,11 +6,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..laws import Law
+from ..laws.ranges import first_outside
 from .words import limit_words, variable_words
 
 __all__ = ["outside_range", "why_silent"]
-
-_SLACK = 1e-12  # of an angle of 40° in radians, say
 
 
 def outside_range(law: Law, asked: dict[str, ArrayLike]) -> str:
@@ -55,11 +54,9 @@ def why_silent(law: Law, asked: dict[str, ArrayLike]) -> str:
 
 
 def _first_outside(ranges: Mapping[str, tuple[float, float]], asked: dict[str, ArrayLike]) -> str:
-    for name, values in asked.items():
-        low, high = ranges.get(name, (-np.inf, np.inf))
-        array = np.ravel(np.asarray(values, np.float64))
-        bad = array[(array < low - _SLACK * abs(low)) | (array > high + _SLACK * abs(high))]
-        if bad.size:
-            inside = "" if np.isinf(high) else "in "
-            return f"{variable_words(name, float(bad[0]))} is not {inside}{limit_words(name, low, high)}"
-    return ""
+    outside = first_outside(ranges, asked)
+    if outside is None:
+        return ""
+    name, value, low, high = outside
+    inside = "" if np.isinf(high) else "in "
+    return f"{variable_words(name, value)} is not {inside}{limit_words(name, low, high)}"

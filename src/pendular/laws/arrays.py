@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._jit import in_chunks, kernel
+from .._jit import element, in_chunks, kernel
 from ._registry import LAWS, force_star_of, rupture_star_of, rupture_work_star_of
 
 __all__ = ["force_star", "rupture_star", "rupture_work_star"]
@@ -18,27 +18,33 @@ _CHUNK = 65536  # elements that one thread takes at a time
 
 
 @kernel
-def _at(operand: Array, i: int) -> float:
-    """Element i of an operand that is as long as the result or has one element for all."""
-    return operand[min(i, operand.size - 1)]
-
-
-@kernel
 def _force_range(code: int, x: Operands, out: Array, start: int, stop: int) -> None:
     for i in range(start, stop):
-        out[i] = force_star_of(code, _at(x[0], i), _at(x[1], i), _at(x[2], i), _at(x[3], i), _at(x[4], i), _at(x[5], i))
+        out[i] = force_star_of(
+            code,
+            element(x[0], i),
+            element(x[1], i),
+            element(x[2], i),
+            element(x[3], i),
+            element(x[4], i),
+            element(x[5], i),
+        )
 
 
 @kernel
 def _rupture_range(code: int, x: Operands, out: Array, start: int, stop: int) -> None:
     for i in range(start, stop):
-        out[i] = rupture_star_of(code, _at(x[0], i), _at(x[1], i), _at(x[2], i), _at(x[3], i), _at(x[4], i))
+        out[i] = rupture_star_of(
+            code, element(x[0], i), element(x[1], i), element(x[2], i), element(x[3], i), element(x[4], i)
+        )
 
 
 @kernel
 def _rupture_work_range(code: int, x: Operands, out: Array, start: int, stop: int) -> None:
     for i in range(start, stop):
-        out[i] = rupture_work_star_of(code, _at(x[0], i), _at(x[1], i), _at(x[2], i), _at(x[3], i), _at(x[4], i))
+        out[i] = rupture_work_star_of(
+            code, element(x[0], i), element(x[1], i), element(x[2], i), element(x[3], i), element(x[4], i)
+        )
 
 
 def force_star(

@@ -1,8 +1,8 @@
 """The kernels of a table in loops over arrays.
 
 Forces and what goes with them run in blocks that pass through the first cache three times: the arithmetic of all
-contacts first, then one polynomial after another. The compiler turns the arithmetic into vector instructions, and the
-processor need not wait for one contact before it begins with the next.
+contacts first, then one polynomial after another. The processor need not wait for one contact before it begins with the
+next.
 """
 
 import math
@@ -10,7 +10,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from .._jit import kernel
+from .._jit import element, kernel
 from . import kernels
 from .kernels import Grid, Place, cell_of, liquid_unit, place_of, q_of, reduce_pair
 from .polynomial import CELL, RUPTURE_CELL, vector_in_three, vector_in_two
@@ -22,12 +22,6 @@ Operands = tuple[Floats, Floats, Floats, Floats, Floats]  # separation, control,
 FORCE, LIQUID, STIFFNESS, ENERGY, RUPTURE = range(5)
 
 _BLOCK = 256
-
-
-@kernel
-def _at(operand: Floats, i: int) -> float:
-    """Element i of an operand that is as long as the result or has one element for all."""
-    return operand[min(i, operand.size - 1)]
 
 
 @kernel
@@ -68,10 +62,10 @@ def block_range(asked: int, grid: Grid, x: Operands, out: Floats, start: int, st
 def scalar_range(asked: int, grid: Grid, x: Operands, out: Floats, start: int, stop: int) -> None:
     """Stiffnesses, energies or rupture distances of the contacts from start to stop."""
     for i in range(start, stop):
-        control, radius1, radius2, gamma = _at(x[1], i), _at(x[2], i), _at(x[3], i), _at(x[4], i)
+        control, radius1, radius2, gamma = element(x[1], i), element(x[2], i), element(x[3], i), element(x[4], i)
         if asked == RUPTURE:
             out[i] = kernels.rupture_distance(grid, control, radius1, radius2, gamma)
         elif asked == STIFFNESS:
-            out[i] = kernels.stiffness(grid, _at(x[0], i), control, radius1, radius2, gamma)
+            out[i] = kernels.stiffness(grid, element(x[0], i), control, radius1, radius2, gamma)
         else:
-            out[i] = kernels.energy(grid, _at(x[0], i), control, radius1, radius2, gamma)
+            out[i] = kernels.energy(grid, element(x[0], i), control, radius1, radius2, gamma)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._check import numbers
+from .._check import numbers, result_array
 from .._jit import in_chunks, kernel
 from . import kernels
 from .kernels import Grid
@@ -69,9 +69,7 @@ class ForceCurve:
             [N].
         """
         gap = numbers("separation", separation, "m")
-        result = np.empty(gap.shape) if out is None else out
-        if result.shape != gap.shape or result.dtype != np.float64 or not result.flags.c_contiguous:
-            raise ValueError(f"out: is not a contiguous float64 array of shape {gap.shape}")
+        result = result_array(out, gap.shape)
         flat = np.require(gap, None, ["C", "W"]).reshape(-1)
         in_chunks(_curve_range, flat.size, _CHUNK, self.rupture_distance, self.series, flat, result.reshape(-1))
         return result[()]

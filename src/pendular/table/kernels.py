@@ -144,10 +144,20 @@ def rupture_star(grid: Grid, place: Place) -> float:
 
 
 @kernel
+def find(
+    grid: Grid, control: float, radius1: float, radius2: float, surface_tension: float
+) -> tuple[Reduced, Place, float]:
+    """A pair reduced, where it lies in the table, and its rupture distance, [m]."""
+    pair = reduce_pair(grid, control, radius1, radius2, surface_tension)
+    place = place_of(grid, pair.control, pair.size, pair.side)
+    rupture = pair.radius * rupture_star(grid, place)
+    return pair, place, rupture
+
+
+@kernel
 def rupture_distance(grid: Grid, control: float, radius1: float, radius2: float, surface_tension: float) -> float:
     """Separation at which the bridge breaks, [m]."""
-    pair = reduce_pair(grid, control, radius1, radius2, surface_tension)
-    return pair.radius * rupture_star(grid, place_of(grid, pair.control, pair.size, pair.side))
+    return find(grid, control, radius1, radius2, surface_tension)[2]
 
 
 @kernel
@@ -155,9 +165,7 @@ def force(
     grid: Grid, separation: float, control: float, radius1: float, radius2: float, surface_tension: float
 ) -> float:
     """Attraction of two solids, [N]: 0 from the rupture distance on."""
-    pair = reduce_pair(grid, control, radius1, radius2, surface_tension)
-    place = place_of(grid, pair.control, pair.size, pair.side)
-    rupture = pair.radius * rupture_star(grid, place)
+    pair, place, rupture = find(grid, control, radius1, radius2, surface_tension)
     if separation >= rupture:
         return 0.0
     cell, t = cell_of(grid, place, q_of(separation, rupture))
@@ -177,9 +185,7 @@ def liquid(
     grid: Grid, separation: float, control: float, radius1: float, radius2: float, surface_tension: float
 ) -> float:
     """Liquid volume under suction, [m³], or suction at constant volume, [Pa]; NaN where there is no bridge."""
-    pair = reduce_pair(grid, control, radius1, radius2, surface_tension)
-    place = place_of(grid, pair.control, pair.size, pair.side)
-    rupture = pair.radius * rupture_star(grid, place)
+    pair, place, rupture = find(grid, control, radius1, radius2, surface_tension)
     if not separation < rupture:
         return math.nan
     cell, t = cell_of(grid, place, q_of(separation, rupture))
@@ -195,9 +201,7 @@ def stiffness(
 
     dq/dD = -1/(2 q D_c).
     """
-    pair = reduce_pair(grid, control, radius1, radius2, surface_tension)
-    place = place_of(grid, pair.control, pair.size, pair.side)
-    rupture = pair.radius * rupture_star(grid, place)
+    pair, place, rupture = find(grid, control, radius1, radius2, surface_tension)
     if not separation < rupture:
         return math.nan
     if separation < 0.0:
@@ -242,12 +246,10 @@ def energy(
 
     E(D) = -∫ F dD from D to D_c = -2 D_c ∫ F q dq from 0 to q(D).
     """
-    pair = reduce_pair(grid, control, radius1, radius2, surface_tension)
-    place = place_of(grid, pair.control, pair.size, pair.side)
-    rupture = rupture_star(grid, place)
-    if separation >= pair.radius * rupture:
+    pair, place, rupture = find(grid, control, radius1, radius2, surface_tension)
+    if separation >= rupture:
         return 0.0
-    unit = 2.0 * math.pi * surface_tension * pair.radius * pair.radius
-    work = 2.0 * rupture * unit * _integral(grid, place, q_of(separation, pair.radius * rupture))
+    unit = 2.0 * math.pi * surface_tension * pair.radius
+    work = 2.0 * rupture * unit * _integral(grid, place, q_of(separation, rupture))
     overlap = -separation if separation < 0.0 else 0.0
     return -work - overlap * force(grid, 0.0, control, radius1, radius2, surface_tension)

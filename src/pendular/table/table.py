@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._check import angle, in_range, numbers, one_of, quantity, scalar
+from .._check import angle, in_range, numbers, one_of, quantity, result_array, scalar
 from .._jit import in_chunks
 from .arrays import ENERGY, FORCE, LIQUID, RUPTURE, STIFFNESS, block_range, scalar_range
 from .build import Task, build_grid
@@ -225,9 +225,7 @@ class Table:
         units = ("m", _UNITS[self.control], "m", "m", "N/m")
         read = [numbers(name, value, unit) for name, value, unit in zip(names, arguments, units, strict=True)]
         shape = np.broadcast_shapes(*(array.shape for array in read))
-        result = np.empty(shape) if out is None else out
-        if result.shape != shape or result.dtype != np.float64 or not result.flags.c_contiguous:
-            raise ValueError(f"out: is not a contiguous float64 array of shape {shape}")
+        result = result_array(out, shape)
         # One array type for every call, hence one compilation; an operand of one element is not repeated.
         operands = tuple(
             np.require(array if array.size == 1 else np.broadcast_to(array, shape), None, ["C", "W"]).reshape(-1)
