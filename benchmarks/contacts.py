@@ -8,6 +8,7 @@ exact solver; the table; and the table collapsed to one pair. ``python -m benchm
 import math
 import statistics
 import sys
+import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -25,6 +26,19 @@ PAGE = Path(__file__).parent.parent / "docs" / "speed.md"
 CONTACT_ANGLE = math.radians(20)
 GAMMA, MEAN_RADIUS, REDUCED_SUCTION = 0.0728, 50e-6, 100.0
 SEED, COUNT, ROUNDS = 20261122, 10_000_000, 5
+# Contact angles, control and ranges of tables that are built.
+TABLES: tuple[tuple[object, str, dict[str, tuple[float, float]]], ...] = (
+    (0, "suction", {}),
+    (20, "suction", {}),
+    (40, "suction", {}),
+    ((0, 60), "suction", {}),
+    (0, "volume", {}),
+    (20, "volume", {"reduced": (1e-9, 0.1)}),
+    (40, "volume", {"radius_ratio": (1.0, 1.0)}),
+    (40, "volume", {"radius_ratio": (1.02, math.inf)}),
+    ((0, 60), "volume", {"reduced": (1e-9, 0.1)}),
+)
+SIDE = 64  # spheres along the edge of the packing
 BYTES = 5 * 8  # separation, two radii, and the result, which is read before it is written
 
 
@@ -111,6 +125,38 @@ def spline(table: pl.Table, suction: float) -> tuple[Callable[..., np.ndarray], 
     return force, "60 x 24 x 8"
 
 
+def packing(random: np.random.Generator) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Pairs, centres and radii of spheres that stand shaken on a cubic lattice, so that a part of the pairs touch."""
+    radii = random.uniform(0.9, 1.1, SIDE**3) * MEAN_RADIUS
+    places = np.stack(np.meshgrid(*3 * [np.arange(SIDE)], indexing="ij"), axis=-1).reshape(-1, 3)
+    centres = (2.02 * places + random.uniform(-0.02, 0.02, places.shape)) * MEAN_RADIUS
+    number = np.arange(SIDE**3).reshape(3 * (SIDE,))
+    steps = [np.moveaxis(number, axis, 0) for axis in range(3)]
+    pairs = np.concatenate([np.column_stack([along[:-1].ravel(), along[1:].ravel()]) for along in steps])
+    return pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))], centres, radii
+
+
+def builds() -> str:
+    """Rows of what tables of other angles and controls take, with their errors."""
+    lines = []
+    for degrees, control, options in TABLES:
+        begin = time.perf_counter()
+        table = pl.tabulate(np.deg2rad(degrees), control, **options)
+        took = time.perf_counter() - begin
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "table"
+            table.save(path)
+            size = path.stat().st_size / 1e6
+        angles = " and ".join(f"{angle}°" for angle in np.atleast_1d(degrees))
+        (low, high), (least, most) = table.reduced, table.radius_ratio
+        ratios = f"{least:g} to {'∞' if math.isinf(most) else f'{most:g}'}"
+        lines.append(
+            f"| {angles} | {control} {low:g} to {high:g} | {ratios} | {took:.1f} s | {size:.1f} MB | "
+            f"{table.bound.force:.1e} | {table.bound.rupture:.1e} |"
+        )
+    return "\n".join(lines)
+
+
 def measure() -> str:
     """The page."""
     random = np.random.default_rng(SEED)
@@ -176,6 +222,13 @@ def measure() -> str:
     here = pl.bridge(one, separation[:few], suction=suction, liquid=liquid).force
     wrong = np.max(np.abs(out[:few] - here)) / pl.bridge(one, 0.0, suction=suction, liquid=liquid).force
     add(f"**table at one pair**, {curve.series.size} terms", cost, f"{wrong:.1e}")
+    pairs, centres, radii = packing(random)
+    reach = 0.5 * rupture
+    before = pl.contact_forces(table, pairs, centres, radii, suction, GAMMA, formation_distance=reach).state
+    step = median_ns(
+        lambda: pl.contact_forces(table, pairs, centres, radii, suction, GAMMA, state=before, formation_distance=reach),
+        len(pairs),
+    )
     copy = median_ns(lambda: np.copyto(out, separation), COUNT)
     bandwidth = 3 * 8 / copy  # GB/s: copying reads both and writes one
     reference = rows[0][1]
@@ -195,14 +248,26 @@ one over the force at contact. Copying an array moved {bandwidth:.0f} GB/s in th
 share of that which a contact's {BYTES} bytes take.
 
 | | ns a contact | ratio to the paper's form | share of memory bandwidth | error |
-|---|---|---|---|---|
+|---|---:|---:|---:|---:|
 {chr(10).join(lines)}
+
+A whole step of `pendular.contact_forces`, from a list of {len(pairs):.1e} pairs and {len(before.pairs):.1e} bridges
+of the step before to forces, virial and bridges of this one, took {step:.0f} ns a pair.
 
 The table was built in {build:.1f} s, for reduced suctions from {table.reduced[0]:g} to {table.reduced[1]:g} and all
 size ratios up to the plane; its forces take {mib:.1f} MiB. On {bound.bridges} bridges that it was not made from, its
 force is within **{bound.force:.1e}** of the force at contact up to 1 - D/D_c = 4e-6, its rupture distance within
 **{bound.rupture:.1e}**, relative, and its volume within {bound.liquid:.1e} of that at contact. They are measured anew
 for each table that is built, and stored in it.
+
+## Tables
+
+Each with its default tolerance of the force, 1e-8 of that at contact under suction and 1e-7 at constant volume.
+Suctions are in units of γ/R̄, volumes of R̄³.
+
+| contact angle | reduced | size ratio | built in | file | error of the force | of the rupture distance |
+|---|---|---|---:|---:|---:|---:|
+{builds()}
 """
 
 

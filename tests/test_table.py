@@ -29,6 +29,16 @@ def volume_table():
     return pl.tabulate(math.radians(20), "volume", reduced=(1e-3, 4e-3), radius_ratio=(1.5, 4), tolerance=1e-6)
 
 
+@pytest.fixture(scope="module")
+def all_volumes():
+    return pl.tabulate(0.0, "volume", tolerance=1e-6)
+
+
+@pytest.fixture(scope="module")
+def volumes_of_two_angles():
+    return pl.tabulate((0.2, 0.9), "volume", reduced=(1e-6, 1e-2), tolerance=1e-7)
+
+
 def contacts(count, table, largest_ratio=8.0, beyond=1.0):
     """Random radii and controls in the range of a table, and gaps up to a share of the rupture distance."""
     print(f"seed {SEED}")
@@ -51,7 +61,7 @@ def exact(table, separation, control, radius1, radius2):
     return pl.bridge(pair, separation, **{table.control: control}, liquid=liquid)
 
 
-@pytest.mark.parametrize("name", ["table", "two_angles", "volume_table"])
+@pytest.mark.parametrize("name", ["table", "two_angles", "volume_table", "all_volumes", "volumes_of_two_angles"])
 def test_bound_holds_in_si_units(name, request):
     table = request.getfixturevalue(name)
     x = contacts(400 if table.control == "volume" else 4000, table)

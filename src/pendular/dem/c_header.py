@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from .. import __version__
 from ..table.kernels import CELLS, Q_COUNT, SIZE_CELLS, U_COUNT, Grid
-from ..table.polynomial import CELL, CONTROL_TERMS, LANES, RUPTURE_CELL, RUPTURE_SIZE_TERMS, SIZE_TERMS
+from ..table.polynomial import CELL, CONTROL_TERMS, LANES, LEAST_SIZE_TERMS, RUPTURE_CELL, RUPTURE_SIZE_TERMS
 
 if TYPE_CHECKING:
     from ..table import Table
@@ -134,7 +134,7 @@ def _about(table: "Table") -> dict[str, object]:
         "rupture_size_terms": RUPTURE_SIZE_TERMS,
         "cell": CELL,
         "control_terms": CONTROL_TERMS,
-        "size_terms": SIZE_TERMS,
+        "least_size_terms": LEAST_SIZE_TERMS,
     }
 
 

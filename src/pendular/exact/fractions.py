@@ -1,7 +1,10 @@
-"""Bridges at given fractions of the way from rupture to contact, in the coordinate in which the branch is smooth.
+r"""Bridges at given places between rupture and contact, in a coordinate in which the branch is smooth.
 
-With D_c the rupture distance, the coordinate is q = √(1 - D/D_c): 0 at rupture, 1 at contact. A force curve has a
-vertical tangent at rupture as a function of D, and none as a function of q.
+With D_c the rupture distance, the coordinate is :math:`q = \sqrt{1 - D/D_c}`: 0 at rupture, 1 at contact. A force curve
+has a vertical tangent at rupture as a function of D, and none as a function of q.
+
+A small volume spreads fast when the solids move apart: then the force falls within a distance d of contact much shorter
+than D_c. The stretched coordinate, with asinh(D/d) in the place of D, is smooth in such a curve as well.
 """
 
 import math
@@ -12,10 +15,58 @@ from numpy.typing import NDArray
 from .._jit import kernel
 from .branches import begin, force_of
 from .equilibrium import Solids, balance_at, fold, is_limited_by_second, solve_suction, suction_state, swapped
-from .middle import CURVATURE, SEPARATION, VOLUME, Vector, correct, measure
-from .path import FOLD, PITCHFORK, TARGET, Curve, set_out, walk
+from .middle import CURVATURE, SEPARATION, VOLUME, Vector, Vectors, correct, measure
+from .path import FOLD, PITCHFORK, TARGET, Curve, Walk, set_out, walk
 
 Rows = NDArray[np.float64]
+
+_MOST_STEPS = 6
+_NEAR = 0.25  # largest step, over the way from the fold: the other branch is at 2
+_LAST_STEP = 1e-8  # over the way from the fold
+
+
+@kernel
+def stretch_of(volume: float, solids: Solids) -> float:
+    """Distance d from contact in which the force of a small volume falls: √(2V/πR̄)."""
+    return math.sqrt((solids.k1 + solids.k2) * volume / math.pi)
+
+
+@kernel
+def separation_at(q: float, rupture: float, stretch: float) -> float:
+    """D at a coordinate q, stretched by the length d; an infinite d does not stretch."""
+    if math.isinf(stretch):
+        return rupture * (1.0 - q * q)
+    return stretch * math.sinh(math.asinh(rupture / stretch) * (1.0 - q * q))
+
+
+@kernel
+def _arc_foretold(q: Vector, i: int, top: float, arcs: Vector) -> float:
+    """Wetted arc at q[i], ascending, by the polynomial through those of up to three bridges before it."""
+    first = max(i - 3, -1)  # -1 is the fold, at q = 0
+    foretold = 0.0
+    for j in range(first, i):
+        weight, place = 1.0, q[j] if j >= 0 else 0.0
+        for k in range(first, i):
+            if k != j:
+                other = q[k] if k >= 0 else 0.0
+                weight *= (q[i] - other) / (place - other)
+        foretold += weight * (arcs[j] if j >= 0 else top)
+    return foretold
+
+
+@kernel
+def _arc_near(guess: float, top: float, separation: float, curvature: float, solids: Solids) -> float:
+    """Wetted arc on the stable branch by Newton's method from a good guess; NaN if it is not so good."""
+    arc = guess
+    for _ in range(_MOST_STEPS):
+        balance = balance_at(arc, curvature, solids)
+        step = (balance.separation - separation) / balance.rate
+        if not (balance.rate < 0.0 and abs(step) < _NEAR * (arc - top)):
+            return math.nan
+        arc -= step
+        if abs(step) < _LAST_STEP * (arc - top):  # convergence is quadratic
+            return arc
+    return math.nan
 
 
 @kernel
@@ -28,16 +79,20 @@ def suction_fractions(curvature: float, solids: Solids, q: Vector, values: Rows)
     if math.isnan(top):
         return math.nan
     rupture = balance_at(top, curvature, solids).separation
+    arcs = np.empty(q.size)
     for i in range(q.size):
-        arc = solve_suction(rupture * (1.0 - q[i] * q[i]), curvature, solids, False)
-        if arc > 0.0:
-            state = suction_state(arc, curvature, solids)
+        separation = rupture * (1.0 - q[i] * q[i])
+        arcs[i] = _arc_near(_arc_foretold(q, i, top, arcs), top, separation, curvature, solids)
+        if math.isnan(arcs[i]):
+            arcs[i] = solve_suction(separation, curvature, solids, False)
+        if arcs[i] > 0.0:
+            state = suction_state(arcs[i], curvature, solids)
             values[i, 0], values[i, 1] = state.force, state.volume
     return rupture
 
 
 @kernel
-def _foretold(q: Vector, i: int, passed: Rows, separation: float, curve: Curve) -> tuple[Vector, bool]:
+def _foretold(q: Vector, i: int, passed: Vectors, separation: float, curve: Curve) -> tuple[Vector, bool]:
     """Bridge at q[i] by Newton's method from what the three bridges above it foretell, and whether that went well."""
     guess = np.zeros(4)
     for j in range(i + 1, i + 4):  # Lagrange
@@ -54,33 +109,51 @@ def _foretold(q: Vector, i: int, passed: Rows, separation: float, curve: Curve) 
 
 
 @kernel
-def volume_fractions(volume: float, solids: Solids, q: Vector, values: Rows) -> float:
-    """Force λ and curvature H at each q, ascending, at the volume; returns where the bridge first loses stability."""
-    values[:] = math.nan
-    curve = Curve(solids, VOLUME, volume, SEPARATION)
+def walk_branch(curve: Curve, stretch: float, q: Vector, passed: Vectors) -> Walk:
+    """Bridges at each q, ascending, on the way from contact to where the branch first loses stability: the walk's end.
+
+    NaN where a bridge, and all that are nearer to rupture, could not be reached.
+    """
+    passed[:] = math.nan
     first = begin(curve)
     if first.event != TARGET:
-        return math.nan
+        return first
     z = first.z
     top = walk(z, set_out(z, curve, 1.0), curve, math.inf, 1.0, True)
     if top.event not in (FOLD, PITCHFORK):
-        return math.nan
-    rupture = measure(top.z, solids).values[SEPARATION]
-    passed = np.empty((q.size, 4))
+        return top
+    rupture = measure(top.z, curve.solids).values[SEPARATION]
     for i in range(q.size - 1, -1, -1):  # from contact, as all stable bridges are reached
-        separation = rupture * (1.0 - q[i] * q[i])
+        separation = separation_at(q[i], rupture, stretch)
         is_met = False
         if i + 3 < q.size:
             following, is_met = _foretold(q, i, passed, separation, curve)
         if not is_met:
             way = walk(z, set_out(z, curve, 1.0), curve, separation, 1.0, False)
             if way.event != TARGET:
-                return rupture
+                return top
             following = way.z
         z = following
         passed[i] = z
-        values[i, 0], values[i, 1] = force_of(z), z[3] * math.exp(-z[2])
-    return rupture
+    return top
+
+
+@kernel
+def note_branch(passed: Vectors, values: Rows) -> None:
+    """Force λ and curvature H of the bridges of a branch."""
+    for i in range(passed.shape[0]):
+        values[i, 0], values[i, 1] = force_of(passed[i]), passed[i, 3] * math.exp(-passed[i, 2])
+
+
+@kernel
+def volume_fractions(volume: float, solids: Solids, q: Vector, values: Rows) -> float:
+    """Force λ and curvature H at each q, ascending, at the volume; returns where the bridge first loses stability."""
+    curve = Curve(solids, VOLUME, volume, SEPARATION)
+    passed = np.empty((q.size, 4))
+    top = walk_branch(curve, math.inf, q, passed)
+    note_branch(passed, values)
+    is_end = top.event == FOLD or top.event == PITCHFORK
+    return measure(top.z, solids).values[SEPARATION] if is_end else math.nan
 
 
 @kernel

@@ -1,8 +1,8 @@
 """The kernels of a table in loops over arrays.
 
-Forces and what goes with them run in blocks that pass through the first cache three times: the arithmetic of all
-contacts first, then one polynomial after another. The processor need not wait for one contact before it begins with the
-next.
+Forces and what goes with them run in blocks that pass through the first cache several times. The compiler makes vector
+instructions of the passes that are plain arithmetic, and the processor need not wait for one contact before it begins
+with the next.
 """
 
 import math
@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from .._jit import element, kernel
 from . import kernels
-from .kernels import Grid, Place, cell_of, liquid_unit, place_of, q_of, reduce_pair
-from .polynomial import CELL, RUPTURE_CELL, vector_in_three, vector_in_two
+from .kernels import Grid, Place, cell_of, if_bridged, liquid_unit, place_of, q_of, reduce_pair
+from .polynomial import CELL, RUPTURE_CELL, in_three, in_two
 
 Floats = NDArray[np.float64]
 Operands = tuple[Floats, Floats, Floats, Floats, Floats]  # separation, control, radius 1, radius 2, surface tension
@@ -21,15 +21,17 @@ Operands = tuple[Floats, Floats, Floats, Floats, Floats]  # separation, control,
 # What is asked.
 FORCE, LIQUID, STIFFNESS, ENERGY, RUPTURE = range(5)
 
-_BLOCK = 256
+_BLOCK = 64
 
 
 @kernel
 def block_range(asked: int, grid: Grid, x: Operands, out: Floats, start: int, stop: int) -> None:
     """Forces, or what goes with them, of the contacts from start to stop."""
     separation, control, radius1, radius2, gamma = asking = np.empty((5, _BLOCK))
-    size, rupture, unit, at_x, at_y, at_t = np.empty((6, _BLOCK))
+    size, rupture, unit, q, at_x, at_y, at_t = np.empty((7, _BLOCK))
     row, size_cell, cell = np.empty((3, _BLOCK), np.int64)
+    coefficients = grid.force if asked == FORCE else grid.liquid
+    beyond = 0.0 if asked == FORCE else math.nan
     for begin in range(start, stop, _BLOCK):
         count = min(_BLOCK, stop - begin)
         for j, operand in enumerate(x):
@@ -47,15 +49,15 @@ def block_range(asked: int, grid: Grid, x: Operands, out: Floats, start: int, st
                 unit[i] = liquid_unit(grid, control[i], rupture[i], gamma[i])
         for i in range(count):
             row[i], size_cell[i], at_x[i], at_y[i] = place_of(grid, control[i], size[i], row[i])
-            rupture[i] *= vector_in_two(grid.rupture, size_cell[i] * RUPTURE_CELL, 0.0, at_y[i], at_x[i])
         for i in range(count):
-            place = Place(row[i], size_cell[i], at_x[i], at_y[i])
-            cell[i], at_t[i] = cell_of(grid, place, q_of(separation[i], rupture[i]))
-        coefficients = grid.force if asked == FORCE else grid.liquid
-        beyond = 0.0 if asked == FORCE else math.nan
+            rupture[i] *= in_two(grid.rupture, size_cell[i] * RUPTURE_CELL, at_x[i], at_y[i])
         for i in range(count):
-            value = unit[i] * vector_in_three(coefficients, cell[i] * CELL, at_x[i], at_y[i], at_t[i])
-            out[begin + i] = beyond if separation[i] >= rupture[i] else value
+            q[i] = q_of(separation[i], rupture[i])
+        for i in range(count):
+            cell[i], at_t[i] = cell_of(grid, Place(row[i], size_cell[i], at_x[i], at_y[i]), q[i])
+        for i in range(count):
+            value = unit[i] * in_three(coefficients, cell[i] * CELL, at_x[i], at_y[i], at_t[i])
+            out[begin + i] = if_bridged(value, separation[i], rupture[i], beyond)
 
 
 @kernel

@@ -1,4 +1,4 @@
-"""A table is built: its cells are chosen, filled with exact bridges, and its error is measured on others."""
+"""A table is built from samples of exact bridges: its cells are chosen, and filled."""
 
 from collections.abc import Callable
 from itertools import pairwise
@@ -7,52 +7,23 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .._jit import in_chunks
-from ..exact.fractions import fractions_range
-from ..exact.middle import CURVATURE, VOLUME
-from .cuts import Cut, chebyshev, choose, interpolation_error, octave_of, shifted_bits, to_powers
+from .cuts import Cut, Points, chebyshev, choose, interpolation_error, octave_of, shifted_bits, to_powers, truncated
 from .kernels import Grid
-from .polynomial import CONTROL_TERMS, LANES, RUPTURE_SIZE_TERMS, SIZE_TERMS
+from .polynomial import CONTROL_TERMS, LANES, RUPTURE_SIZE_TERMS, SIZE_TERMS, aligned
+from .samples import Sample, curves_of, sample_octave
+from .task import Task
 
 Floats = NDArray[np.float64]
+Samples = tuple[Sample, ...]  # of one octave, one a side
+Pairs = Callable[[Floats], tuple[Floats, Floats]]  # controls and sizes at places of one coordinate
 
-_CHUNK = 64  # curves that one thread takes at a time
 _MANTISSA = 52
-_SHARE = 0.25  # of the tolerance for one coordinate
-_RUPTURE_SHARES = {False: 0.003, True: 0.03}  # of the tolerance, under suction and at constant volume, relative
-_TRIAL_Q = np.array([0.02, 0.2, 0.5, 0.8, 1.0])  # the last one is contact
+# The last one is contact; next to it the force of a small volume falls fast.
+_TRIAL_Q = np.array([0.02, 0.2, 0.5, 0.8, 0.92, 0.97, 0.99, 0.997, 1.0])
 _FINEST_CONTROL = 6  # as a power of two: cells to an octave
 _STEPS_BACK = 16
 _SLACK = 1.0 + 1e-12  # of the ranges: radii at the limit are on either side of it by rounding
-_ROUNDING = 3e-3  # of the tolerance, to which coefficients are rounded: it makes the file small
-
-
-class Task(NamedTuple):
-    """What is tabulated."""
-
-    angles: tuple[float, float]
-    is_volume: bool
-    low: float
-    high: float
-    low_ratio: float
-    high_ratio: float
-    tolerance: float
-
-    @property
-    def rupture_tolerance(self) -> float:
-        """For one coordinate, relative; small, as a bridge near rupture feels the square root of the error."""
-        return _RUPTURE_SHARES[self.is_volume] * self.tolerance
-
-    @property
-    def sides(self) -> int:
-        """Two if it matters which of the solids is the smaller."""
-        return 1 if self.angles[0] == self.angles[1] else 2
-
-    @property
-    def sizes(self) -> tuple[float, float]:
-        """Range of the size variable u."""
-        low, high = ((1.0 - 1.0 / ratio) / (1.0 + 1.0 / ratio) for ratio in (self.low_ratio, self.high_ratio))
-        return (low * low, high * high) if self.sides == 1 else (low, high)
+_ROUNDING = 1e-2  # of the tolerance, to which coefficients are rounded: it makes the file small
 
 
 class Octave(NamedTuple):
@@ -63,105 +34,85 @@ class Octave(NamedTuple):
     size: Cut
     q: Cut
     choices: tuple[int, int]  # numbers of the two cuts in the list of candidates
+    samples: Samples
 
 
-class Curves(NamedTuple):
-    """Exact bridges: for each curve the rupture distance, and at each of its q the force and the liquid."""
-
-    rupture: Floats  # (curves,)
-    values: Floats  # (curves, q, 2)
-
-
-def exact_curves(task: Task, control: Floats, size: Floats, side: int, q: Floats) -> Curves:
-    """Solve for the curves at controls and sizes, all at the same q."""
-    control, size = (np.ravel(numbers) for numbers in np.broadcast_arrays(control, size))
-    s = np.sqrt(np.maximum(size, 0.0)) if task.sides == 1 else size
-    larger = 1.0 - s if side == 0 else 1.0 + s
-    angle1, angle2 = (np.full(control.size, angle) for angle in task.angles)
-    pairs = np.column_stack([control, 2.0 - larger, angle1, larger, angle2])
-    order = np.argsort(q)
-    ascending = np.broadcast_to(q[order], (control.size, q.size))
-    found = Curves(np.empty(control.size), np.empty((control.size, q.size, 2)))
-    held = VOLUME if task.is_volume else CURVATURE
-    in_chunks(fractions_range, control.size, _CHUNK, held, pairs, ascending, *found)
-    values = np.empty_like(found.values)
-    values[:, order] = found.values
-    return Curves(found.rupture, values)
-
-
-def _ruptures(task: Task, control: Floats, size: Floats) -> Floats:
-    """D_c, one column a side."""
-    no_q = np.empty(0)
-    return np.column_stack([exact_curves(task, control, size, side, no_q).rupture for side in range(task.sides)])
-
-
-def _forces(task: Task, control: Floats, size: Floats) -> Floats:
-    """Forces at the trial q, those of one side after those of the other."""
-    return np.concatenate(
-        [exact_curves(task, control, size, side, _TRIAL_Q).values[..., 0] for side in range(task.sides)], axis=1
+def _columns(samples: Samples, control: Floats, size: Floats, q: Floats) -> tuple[Floats, Floats]:
+    """D_c, and the forces at each q, of pairs (points, columns), sides side by side: (points, columns)."""
+    found = [curves_of(sample, control, size, q) for sample in samples]
+    shape = np.broadcast_shapes(control.shape, size.shape)
+    return (
+        np.concatenate([curves.rupture.reshape(shape) for curves in found], axis=1),
+        np.concatenate([curves.values[..., 0].reshape(shape[0], -1) for curves in found], axis=1),
     )
 
 
-def _error(
-    task: Task,
-    pairs: Callable[[Floats], tuple[Floats, Floats]],
-    points: Callable[[Floats], Floats],
-    terms: tuple[int, int],
-) -> float:
-    """Error of the interpolation in a coordinate of the pairs, in units of the tolerance for it."""
-    middle = pairs(points(np.zeros(1)).ravel())
-    smallest = _ruptures(task, *middle).min()
-    of_rupture = interpolation_error(lambda along: _ruptures(task, *pairs(along)), points, terms[0]).max() / smallest
-    contact = _forces(task, *middle)[:, len(_TRIAL_Q) - 1 :: len(_TRIAL_Q)].min()
-    of_force = interpolation_error(lambda along: _forces(task, *pairs(along)), points, terms[1]).max() / contact
-    return float(max(of_rupture / task.rupture_tolerance, of_force / _SHARE / task.tolerance))
+def _ends_of(task: Task, exponent: int) -> tuple[Floats, Floats]:
+    """Controls at the ends of an octave, as far as it is in the range, and sizes at the ends of the range."""
+    controls = max(task.low, 2.0**exponent), min(task.high, 2.0 ** (exponent + 1))
+    return np.unique(controls), np.unique(task.sizes)
 
 
-def _size_error(task: Task, control: float, cut: Cut) -> float:
-    terms = (RUPTURE_SIZE_TERMS, SIZE_TERMS)
-    return _error(task, lambda size: (np.full_like(size, control), size), cut.points, terms)
+def _units(task: Task, samples: Samples, exponent: int) -> tuple[float, float]:
+    """What the tolerance allows of D_c and of the force, along one coordinate."""
+    rupture, contact = _columns(samples, *np.meshgrid(*_ends_of(task, exponent)), np.ones(1))
+    return task.rupture_tolerance * float(rupture.min()), task.share * task.tolerance * float(contact.min())
 
 
-def _control_error(task: Task, exponent: int, parts: int) -> float:
+def _error(samples: Samples, units: tuple[float, float], pairs: Pairs, points: Points, terms: tuple[int, int]) -> float:
+    """Error of the interpolation of D_c and of the force in a coordinate of the pairs, in units of the tolerance."""
+
+    def ruptures(along: Floats) -> Floats:
+        return _columns(samples, *pairs(along[:, None]), np.empty(0))[0]
+
+    def forces(along: Floats) -> Floats:
+        return _columns(samples, *pairs(along[:, None]), _TRIAL_Q)[1]
+
+    of_rupture = interpolation_error(ruptures, points, terms[0]).max()
+    of_force = interpolation_error(forces, points, terms[1]).max()
+    return float(max(of_rupture / units[0], of_force / units[1]))
+
+
+def _control_error(samples: Samples, units: tuple[float, float], exponent: int, parts: int, sizes: Floats) -> float:
     """The same for the control, in the first and widest cell of an octave, at the ends of the range of sizes."""
     low, width = 2.0**exponent, 2.0 ** (exponent - parts)
 
     def points(t: Floats) -> Floats:
         return (low + 0.5 * width * (1.0 + t))[None]
 
-    def error(size: float) -> float:
-        return _error(task, lambda control: (control, np.full_like(control, size)), points, (LANES, CONTROL_TERMS))
-
-    return max(error(size) for size in set(task.sizes))
+    return _error(samples, units, lambda control: (control, sizes), points, (LANES, CONTROL_TERMS))
 
 
-def _q_error(task: Task, controls: tuple[float, float], cut: Cut) -> float:
+def _q_error(task: Task, samples: Samples, controls: Floats, points: Points) -> float:
     """The same for q, at three sizes."""
     low, high = task.sizes
     pairs = np.meshgrid(controls, np.unique([low, 0.5 * (low + high), high]))
 
     def forces(q: Floats) -> Floats:
-        found = [
-            exact_curves(task, pairs[0], pairs[1], side, np.append(q, 1.0)).values[..., 0] for side in range(task.sides)
-        ]
-        force = np.concatenate(found)
+        force = np.concatenate(
+            [curves_of(sample, pairs[0], pairs[1], np.append(q, 1.0)).values[..., 0] for sample in samples]
+        )
         return (force / force[:, -1:])[:, :-1].T
 
-    return float(interpolation_error(forces, cut.points, LANES).max() / _SHARE / task.tolerance)
+    return float(interpolation_error(forces, points, LANES).max() / task.share / task.tolerance)
 
 
-def _cut_octave(task: Task, exponent: int, before: Octave | None) -> Octave:
+def _cut_octave(task: Task, samples: Samples, exponent: int, before: Octave | None) -> Octave:
     """Choose the cuts for an octave, beginning a little below those of the one before."""
-    controls = (max(task.low, 2.0**exponent), min(task.high, 2.0 ** (exponent + 1)))
+    controls, sizes = _ends_of(task, exponent)
+    units = _units(task, samples, exponent)
     after = (0, 0) if before is None else tuple(max(0, choice - _STEPS_BACK) for choice in before.choices)
     parts = 0
-    while parts < _FINEST_CONTROL and _control_error(task, exponent, parts) > 1.0:
+    while parts < _FINEST_CONTROL and _control_error(samples, units, exponent, parts, sizes) > 1.0:
         parts += 1
-    size, size_choice = choose(
-        lambda cut: all(_size_error(task, control, cut) < 1.0 for control in controls), *task.sizes, after[0]
-    )
-    q, q_choice = choose(lambda cut: _q_error(task, controls, cut) < 1.0, 0.0, 1.0, after[1])
-    return Octave(exponent, parts, size, q, (size_choice, q_choice))
+
+    def size_error(points: Points) -> float:
+        terms = (RUPTURE_SIZE_TERMS, SIZE_TERMS)
+        return _error(samples, units, lambda size: (controls, size), points, terms)
+
+    size, size_choice = choose(size_error, *task.sizes, after[0])
+    q, q_choice = choose(lambda points: _q_error(task, samples, controls, points), 0.0, 1.0, after[1])
+    return Octave(exponent, parts, size, q, (size_choice, q_choice), samples)
 
 
 def _powers(values: Floats, axis: int) -> Floats:
@@ -185,7 +136,7 @@ def _fill_rupture(task: Task, edges: Floats, octave: Octave, side: int) -> Float
     control = _controls(edges, LANES)
     size = octave.size.points(chebyshev(RUPTURE_SIZE_TERMS))  # (size cells, y)
     pairs = np.broadcast_arrays(control[:, None, None, :], size[None, :, :, None])
-    rupture = exact_curves(task, pairs[0], pairs[1], side, np.empty(0)).rupture.reshape(pairs[0].shape)
+    rupture = curves_of(octave.samples[side], pairs[0], pairs[1], np.empty(0)).rupture.reshape(pairs[0].shape)
     coefficients = _powers(_powers(rupture, 2), 3)[:, :, ::-1].reshape(-1, RUPTURE_SIZE_TERMS, LANES)
     return _rounded(coefficients, _ROUNDING * task.rupture_tolerance * np.abs(coefficients[:, -1, 0])).ravel()
 
@@ -196,31 +147,45 @@ def _fill_values(task: Task, edges: Floats, octave: Octave, side: int) -> Floats
     size = octave.size.points(chebyshev(SIZE_TERMS))
     pairs = np.broadcast_arrays(control[:, None, :, None], size[None, :, None, :])
     q = octave.q.points(chebyshev(LANES))  # (q cells, t)
-    found = exact_curves(task, pairs[0], pairs[1], side, q.ravel()).values
+    found = curves_of(octave.samples[side], pairs[0], pairs[1], q.ravel()).values
     slow = np.sqrt(pairs[0].ravel()) if task.is_volume else np.square(pairs[0].ravel())
     found[..., 1] *= slow[:, None]
     values = np.moveaxis(found.reshape(*pairs[0].shape, *q.shape, 2), (6, 4), (0, 3))  # (2, row, size, q, x, y, t)
-    coefficients = _powers(_powers(_powers(values, 4), 5), 6)[:, :, :, :, ::-1, ::-1]
-    cells = coefficients.reshape(2, -1, CONTROL_TERMS, SIZE_TERMS, LANES)
+    shortened = np.moveaxis(truncated(np.moveaxis(values, (4, 5), (-2, -1))), (-2, -1), (4, 5))
+    coefficients = _powers(_powers(_powers(shortened, 4), 5), 6)
+    powers = [(i, j) for i in range(CONTROL_TERMS) for j in range(SIZE_TERMS) if i + j < SIZE_TERMS][::-1]
+    cells = coefficients[:, :, :, :, *np.transpose(powers)].reshape(2, -1, len(powers), LANES)
     largest = np.abs(values).max(axis=(2, 3, 4, 5, 6))  # of a control cell: at contact
     precision = np.repeat(_ROUNDING * task.tolerance * largest, cells.shape[1] // largest.shape[1], axis=1)
     return np.stack([_rounded(cells[i], precision[i]).ravel() for i in range(2)])
 
 
-def build_grid(task: Task) -> Grid:
-    """Choose the cells and fill them with exact bridges."""
+def sample_range(task: Task) -> list[Samples]:
+    """Solve for the bridges of all octaves of the control, from thin bridges to thick ones, which have more panels."""
+    last = max(octave_of(task.low), octave_of(float(np.nextafter(task.high, 0.0))))
+    exponents = range(octave_of(task.low), last + 1)
+    samples: list[Samples] = []
+    for exponent in exponents if task.is_volume else reversed(exponents):
+        before = samples[-1] if samples else (None, None)
+        samples.append(tuple(sample_octave(task, exponent, side, before[side]) for side in range(task.sides)))
+    return samples if task.is_volume else samples[::-1]
+
+
+def build_grid(task: Task, samples: list[Samples]) -> Grid:
+    """Choose the cells and fill them from the samples."""
     octaves: list[Octave] = []
-    for exponent in range(octave_of(task.low), octave_of(task.high) + 1):
-        octaves.append(_cut_octave(task, exponent, octaves[-1] if octaves else None))
+    for exponent, of_octave in enumerate(samples, octave_of(task.low)):
+        octaves.append(_cut_octave(task, of_octave, exponent, octaves[-1] if octaves else None))
     return fill_grid(task, octaves)
 
 
 def fill_grid(task: Task, octaves: list[Octave]) -> Grid:
     """Fill the cells of the octaves."""
     finest = max(octave.parts for octave in octaves)
-    lines, cuts, rupture, values = [], [], [], []
+    headers, rupture, values = [], [], []
     size_cells = cells = 0
     for side in range(task.sides):
+        rows = []
         for octave in octaves:
             edges = 2.0**octave.exponent * (1.0 + np.arange(2**octave.parts + 1) / 2**octave.parts)
             rupture.append(_fill_rupture(task, edges, octave, side))
@@ -229,16 +194,17 @@ def fill_grid(task: Task, octaves: list[Octave]) -> Grid:
             for low, high in pairwise(edges):
                 line = [(low + high) / (low - high), 2.0 / (high - low), size.w0, size.w1, q.w0, q.w1]
                 cut = [size.shift, size.first, size.cells, q.shift, q.first, q.cells, size_cells, cells]
-                shared = 2 ** (finest - octave.parts)
-                lines += shared * [line]
-                cuts += shared * [cut]
+                rows += 2 ** (finest - octave.parts) * [(line, cut)]
                 size_cells += size.cells
                 cells += size.cells * q.cells
+        rows = [rows[0], *rows, rows[-1]]  # for what lies at the limits but for rounding
+        headers += rows
+    lines, cuts = zip(*headers, strict=True)
     force, liquid = np.concatenate(values, axis=1)
     shift = _MANTISSA - finest
     return Grid(
-        np.array(lines), np.array(cuts, np.int64), np.concatenate(rupture), force, liquid,
-        shift, shifted_bits(2.0 ** octaves[0].exponent, shift), len(octaves) << finest,
+        np.array(lines), np.array(cuts, np.int64), aligned(np.concatenate(rupture)), aligned(force), aligned(liquid),
+        shift, shifted_bits(2.0 ** octaves[0].exponent, shift) - 1, len(rows),
         task.low / _SLACK, task.high * _SLACK, 1.0 / task.high_ratio / _SLACK, _SLACK / task.low_ratio,
         task.sides, task.is_volume,
     )  # fmt: skip

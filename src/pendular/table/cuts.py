@@ -8,14 +8,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .kernels import edge
-
 Floats = NDArray[np.float64]
+Points = Callable[[Floats], Floats]  # coordinates of places from -1 to 1 in cells: (cells, places)
 
 _MANTISSA = 52
-_MOST_OCTAVES, _MOST_PARTS = 14, 3
+_MOST_OCTAVES, _MOST_PARTS = 30, 3
 _TRIALS_PER_CELL = 6
-_ROUNDING = 1e-14  # of w, which must not fall out of its first cell
+_ALMOST = 2.0  # times the least error
+_MARGIN, _MOST_MARGIN = 2e-12, 0.1  # of the range, and of w: what lies at the limits, but for rounding, has a cell
 
 
 class Cut(NamedTuple):
@@ -44,18 +44,26 @@ class Cut(NamedTuple):
 
     def points(self, t: Floats) -> Floats:
         """Coordinates of the places t, from -1 to 1, in all cells: (cells, places)."""
-        edges = np.array([edge(cell, self.shift, self.first) for cell in range(self.cells + 1)])
-        w = edges[:-1, None] + 0.5 * np.diff(edges)[:, None] * (1.0 + t)
+        return self._points_in(np.arange(self.cells), t)
+
+    def end_points(self, t: Floats) -> Floats:
+        """The same in the first and the last cell."""
+        return self._points_in(np.array([0, self.cells - 1]), t)
+
+    def _points_in(self, cells: NDArray[np.int64], t: Floats) -> Floats:
+        low, high = (((self.first + cells + side) << self.shift).view(np.float64)[:, None] for side in (0, 1))
+        w = low + 0.5 * (high - low) * (1.0 + t)
         return (w - self.w0) / self.w1 if self.w1 else np.full_like(w, self.only)
 
 
 def cut_of(low: float, high: float, octaves: int, parts: int, is_reversed: bool) -> Cut:
     """Return the cut of a range with its fine end at the low side, or at the high side if reversed."""
-    smallest = 2.0**-octaves + _ROUNDING
-    start, end = (high, low) if is_reversed else (low, high)
     if low == high:
-        return Cut(smallest, 0.0, 1, 0, low)
-    w1 = (1.0 - smallest) / (end - start)
+        return Cut(0.75, 0.0, 1, 0, low)
+    margin = min(_MARGIN / (high - low), _MOST_MARGIN)
+    smallest = 2.0**-octaves + margin
+    start, end = (high, low) if is_reversed else (low, high)
+    w1 = (1.0 - margin - smallest) / (end - start)
     return Cut(smallest - w1 * start, w1, octaves, parts, math.nan)
 
 
@@ -84,17 +92,28 @@ def to_powers(count: int) -> Floats:
     return np.asarray(np.linalg.inv(np.vander(chebyshev(count), increasing=True)), np.float64)
 
 
+def truncated(values: Floats) -> Floats:
+    """Values at the interpolation points of the last two axes without the products of high Chebyshev polynomials.
+
+    Of T_i(x) T_j(y) those with i + j below the length of the last axis are kept; the others are as small as what the
+    interpolation leaves out along one axis.
+    """
+    terms_x, terms_y = values.shape[-2:]
+    to_x, to_y = (np.polynomial.chebyshev.chebvander(chebyshev(terms), terms - 1) for terms in (terms_x, terms_y))
+    coefficients = np.linalg.inv(to_x) @ values @ np.linalg.inv(to_y).T
+    coefficients[..., np.add.outer(np.arange(terms_x), np.arange(terms_y)) >= terms_y] = 0.0
+    kept: Floats = to_x @ coefficients @ to_y.T
+    return kept
+
+
 def _between(count: int) -> Floats:
     """Places between the interpolation points, where their error is largest; not quite the ends: q = 0 is a fold."""
     places: Floats = 0.98 * np.cos(np.pi * np.arange(count + 1) / count)
     return places
 
 
-def interpolation_error(values: Callable[[Floats], Floats], points: Callable[[Floats], Floats], terms: int) -> Floats:
-    """Largest error of the interpolation in cells, for each column of the values at given coordinates.
-
-    ``points`` has the coordinates of places from -1 to 1 in all cells, as `Cut.points`.
-    """
+def interpolation_error(values: Callable[[Floats], Floats], points: Points, terms: int) -> Floats:
+    """Largest error of the interpolation in cells, for each column of the values at given coordinates."""
     nodes, trials = points(chebyshev(terms)), points(_between(_TRIALS_PER_CELL))
     found = values(np.concatenate([nodes.ravel(), trials.ravel()]))
     at_nodes = found[: nodes.size].reshape(*nodes.shape, -1)
@@ -104,13 +123,25 @@ def interpolation_error(values: Callable[[Floats], Floats], points: Callable[[Fl
     return worst
 
 
-def choose(is_good: Callable[[Cut], bool], low: float, high: float, after: int = 0) -> tuple[Cut, int]:
-    """Return the cut with the fewest cells that is good, and its number in the list; the last one if none is."""
-    for number in range(after, len(_candidates())):
-        cut = cut_of(low, high, *_candidates()[number])
-        if low == high or is_good(cut):
-            break
-    return cut, number
+def choose(error: Callable[[Points], float], low: float, high: float, after: int = 0) -> tuple[Cut, int]:
+    """Return the cut with the fewest cells in which the error is below 1, and its number in the list.
+
+    A cut that is not good mostly shows it in one of its two cells at the ends. If even the finest cuts do, none is
+    good, and of those with one cell to an octave the first is taken that is almost as good as the best one.
+    """
+    candidates = _candidates()
+    if low == high:
+        return cut_of(low, high, *candidates[0]), 0
+    if min(error(cut_of(low, high, *finest).end_points) for finest in candidates[-2:]) < 1.0:
+        for number, candidate in enumerate(candidates[after:], after):
+            cut = cut_of(low, high, *candidate)
+            if error(cut.end_points) < 1.0 and error(cut.points) < 1.0:
+                return cut, number
+    whole = {number: cut_of(low, high, *cut) for number, cut in enumerate(candidates) if cut[1] == 0}
+    errors = {number: error(cut.end_points) for number, cut in whole.items()}
+    least = min(errors.values())
+    number = next(number for number, found in errors.items() if not found > _ALMOST * least)
+    return whole[number], number
 
 
 def octave_of(value: float) -> int:

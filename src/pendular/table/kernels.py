@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._jit import kernel
-from .polynomial import CELL, RUPTURE_CELL, in_three, in_two
+from .polynomial import CELL, RUPTURE_CELL, in_three, in_two, rate_in_three
 
 __all__ = ["Grid", "energy", "force", "liquid", "rupture_distance", "stiffness"]
 
@@ -29,7 +29,6 @@ U_SHIFT, U_FIRST, U_COUNT, Q_SHIFT, Q_FIRST, Q_COUNT, SIZE_CELLS, CELLS = range(
 
 _MANTISSA = 52
 _MANTISSA_BITS, _BITS_OF_ONE = (1 << _MANTISSA) - 1, 1023 << _MANTISSA
-_ALMOST_ONE = 1.0 - 2.0**-53
 # Five points are exact for the product of q and a polynomial of the seventh degree.
 _ABSCISSAE, _WEIGHTS = (tuple(numbers.tolist()) for numbers in np.polynomial.legendre.leggauss(5))
 
@@ -54,9 +53,9 @@ class Grid(NamedTuple):
 
 
 class Reduced(NamedTuple):
-    """Two solids and a control, reduced; NaN outside the range of the table."""
+    """Two solids and a control, reduced and kept inside the range of the table, where all cells lie."""
 
-    radius: float  # R̄
+    radius: float  # R̄, NaN outside the range
     control: float  # c*
     size: float  # u
     side: int
@@ -72,19 +71,13 @@ class Place(NamedTuple):
 
 
 @kernel
-def locate(w: float, shift: int, first: int, count: int) -> tuple[int, float]:
-    """Cell of a number and the coordinate in it, from -1 to 1; the coordinate of a NaN is NaN."""
+def locate(w: float, shift: int, first: int) -> tuple[int, float]:
+    """Cell of a number and the coordinate in it, from -1 to 1."""
     bits = np.float64(w).view(np.int64)
-    cell: int = min(max((bits >> shift) - first, 0), count - 1)  # type: ignore[assignment]
     within = ((bits << (_MANTISSA - shift)) & _MANTISSA_BITS) | _BITS_OF_ONE
-    place: float = 2.0 * np.int64(within).view(np.float64) - 3.0 + (w - w)
+    cell: int = (bits >> shift) - first  # type: ignore[assignment]
+    place: float = 2.0 * np.int64(within).view(np.float64) - 3.0
     return cell, place
-
-
-@kernel
-def below_one(w: float) -> float:
-    """A coordinate kept out of the octave that begins at 1."""
-    return _ALMOST_ONE if w > _ALMOST_ONE else w
 
 
 @kernel
@@ -94,47 +87,67 @@ def edge(cell: int, shift: int, first: int) -> float:
 
 
 @kernel
+def within(number: float, low: float, high: float) -> float:
+    """The number, or the end of the range next to it; a NaN goes to the low end."""
+    from_low = number if number > low else low
+    return from_low if from_low < high else high
+
+
+@kernel
 def reduce_pair(grid: Grid, control: float, radius1: float, radius2: float, surface_tension: float) -> Reduced:
-    """R̄, c* and u of a pair."""
-    small, large = (radius1, radius2) if radius1 < radius2 else (radius2, radius1)
+    """R̄, c* and u of a pair. It has no branches, so that the compiler makes vector instructions of a loop over it."""
+    small = radius1 if radius1 < radius2 else radius2
+    large = radius2 if radius1 < radius2 else radius1
     ratio = small / large
-    inverse = 1.0 / (1.0 + ratio)
-    radius = 2.0 * small * inverse
-    s = (1.0 - ratio) * inverse
+    radius = 2.0 * small / (1.0 + ratio)
     reduced = control / (radius * radius * radius) if grid.is_volume else control / surface_tension * radius
-    is_covered = grid.low <= reduced <= grid.high and grid.least_ratio <= ratio <= grid.largest_ratio
+    inner = within(ratio, grid.least_ratio, grid.largest_ratio)
+    s = (1.0 - inner) / (1.0 + inner)
+    held = within(reduced, grid.low, grid.high)
+    is_covered = (held == reduced) & (inner == ratio)
     return Reduced(
-        radius,
-        reduced if is_covered else math.nan,
+        radius if is_covered else math.nan,
+        held,
         s * s if grid.sides == 1 else s,
-        1 if grid.sides == 2 and radius1 > radius2 else 0,
+        1 if (grid.sides == 2) & (radius1 > radius2) else 0,
     )
 
 
 @kernel
 def place_of(grid: Grid, control: float, size: float, side: int) -> Place:
-    """Cells and coordinates of the control and of the size."""
-    row = side * grid.cells + locate(control, grid.shift, grid.first, grid.cells)[0]
-    w = below_one(grid.lines[row, U0] + grid.lines[row, U1] * size)
-    size_cell, y = locate(w, grid.cuts[row, U_SHIFT], grid.cuts[row, U_FIRST], grid.cuts[row, U_COUNT])
+    """Cells and coordinates of the control and of the size.
+
+    An unsigned row needs no test for an index from the end.
+    """
+    row = np.uint64(side * grid.cells + locate(control, grid.shift, grid.first)[0])
+    w = grid.lines[row, U0] + grid.lines[row, U1] * size
+    size_cell, y = locate(w, grid.cuts[row, U_SHIFT], grid.cuts[row, U_FIRST])
     x = grid.lines[row, X0] + grid.lines[row, X1] * control
-    return Place(row, size_cell + grid.cuts[row, SIZE_CELLS], x, y)
+    return Place(np.int64(row), size_cell + grid.cuts[row, SIZE_CELLS], x, y)  # type: ignore[arg-type]
 
 
 @kernel
 def q_of(separation: float, rupture: float) -> float:
-    """√(1 - D/D_c), NaN beyond rupture; solids that overlap count as touching."""
-    return math.sqrt(1.0 - (0.0 if separation < 0.0 else separation) / rupture)
+    """√(1 - D/D_c), 0 beyond rupture; solids that overlap count as touching."""
+    share = (separation if separation > 0.0 else 0.0) / rupture
+    return math.sqrt(1.0 - share if share < 1.0 else 0.0)
 
 
 @kernel
 def cell_of(grid: Grid, place: Place, q: float) -> tuple[int, float]:
     """Cell among all of the table at q, and the coordinate in it."""
-    row = place.row
-    w = below_one(grid.lines[row, Q0] + grid.lines[row, Q1] * q)
-    q_cell, t = locate(w, grid.cuts[row, Q_SHIFT], grid.cuts[row, Q_FIRST], grid.cuts[row, Q_COUNT])
+    row = np.uint64(place.row)
+    w = grid.lines[row, Q0] + grid.lines[row, Q1] * q
+    q_cell, t = locate(w, grid.cuts[row, Q_SHIFT], grid.cuts[row, Q_FIRST])
     size_cell = place.size_cell - grid.cuts[row, SIZE_CELLS]
     return grid.cuts[row, CELLS] + size_cell * grid.cuts[row, Q_COUNT] + q_cell, t
+
+
+@kernel
+def if_bridged(value: float, separation: float, rupture: float, beyond: float) -> float:
+    """A value before rupture, another one beyond, NaN if one of the two lengths is NaN."""
+    other = beyond if separation >= rupture else math.nan
+    return value if separation < rupture else other
 
 
 @kernel
@@ -166,10 +179,10 @@ def force(
 ) -> float:
     """Attraction of two solids, [N]: 0 from the rupture distance on."""
     pair, place, rupture = find(grid, control, radius1, radius2, surface_tension)
-    if separation >= rupture:
-        return 0.0
+    if not separation < rupture:
+        return 0.0 if separation >= rupture else math.nan
     cell, t = cell_of(grid, place, q_of(separation, rupture))
-    return 2.0 * math.pi * surface_tension * pair.radius * in_three(grid.force, cell * CELL, place.x, place.y, t)[0]
+    return 2.0 * math.pi * surface_tension * pair.radius * in_three(grid.force, cell * CELL, place.x, place.y, t)
 
 
 @kernel
@@ -190,7 +203,7 @@ def liquid(
         return math.nan
     cell, t = cell_of(grid, place, q_of(separation, rupture))
     unit = liquid_unit(grid, pair.control, pair.radius, surface_tension)
-    return unit * in_three(grid.liquid, cell * CELL, place.x, place.y, t)[0]
+    return unit * in_three(grid.liquid, cell * CELL, place.x, place.y, t)
 
 
 @kernel
@@ -212,7 +225,7 @@ def stiffness(
     q_cell = (cell - cut[CELLS]) % cut[Q_COUNT]
     width = edge(q_cell + 1, cut[Q_SHIFT], cut[Q_FIRST]) - edge(q_cell, cut[Q_SHIFT], cut[Q_FIRST])
     t_rate = 2.0 / width * grid.lines[place.row, Q1] * (-0.5 / (q * rupture))
-    rate = in_three(grid.force, cell * CELL, place.x, place.y, t)[1] * t_rate
+    rate = rate_in_three(grid.force, cell * CELL, place.x, place.y, t) * t_rate
     return 2.0 * math.pi * surface_tension * pair.radius * rate
 
 
@@ -232,8 +245,8 @@ def _integral(grid: Grid, place: Place, end: float) -> float:
         half = 0.5 * (high - low)
         for j in range(len(_ABSCISSAE)):
             q = 0.5 * (low + high) + half * _ABSCISSAE[j]
-            _, t = locate(line[Q0] + line[Q1] * q, cut[Q_SHIFT], cut[Q_FIRST], cut[Q_COUNT])
-            total += half * _WEIGHTS[j] * q * in_three(grid.force, cell * CELL, place.x, place.y, t)[0]
+            _, t = locate(line[Q0] + line[Q1] * q, cut[Q_SHIFT], cut[Q_FIRST])
+            total += half * _WEIGHTS[j] * q * in_three(grid.force, cell * CELL, place.x, place.y, t)
         low = high
     return total
 
@@ -247,8 +260,8 @@ def energy(
     E(D) = -∫ F dD from D to D_c = -2 D_c ∫ F q dq from 0 to q(D).
     """
     pair, place, rupture = find(grid, control, radius1, radius2, surface_tension)
-    if separation >= rupture:
-        return 0.0
+    if not separation < rupture:
+        return 0.0 if separation >= rupture else math.nan
     unit = 2.0 * math.pi * surface_tension * pair.radius
     work = 2.0 * rupture * unit * _integral(grid, place, q_of(separation, rupture))
     overlap = -separation if separation < 0.0 else 0.0

@@ -8,12 +8,13 @@ from numpy.typing import NDArray
 
 from .._jit import in_chunks
 from .arrays import FORCE, LIQUID, RUPTURE, block_range, scalar_range
-from .build import Task, exact_curves
 from .kernels import Grid
+from .samples import exact_curves
+from .task import Task
 
 Floats = NDArray[np.float64]
 
-_SUCTION_CURVES, _VOLUME_CURVES = 4000, 400
+_SUCTION_CURVES, _VOLUME_CURVES = 4000, 1000
 _SEED = 20260
 _NEAREST_RUPTURE = 0.002  # in q: 1 - D/D_c = 4e-6
 _CHUNK = 65536
@@ -33,13 +34,15 @@ def measure(grid: Grid, task: Task) -> Bound:
     random = np.random.default_rng(_SEED)
     count = _VOLUME_CURVES if task.is_volume else _SUCTION_CURVES
     low, high = task.sizes
-    q = np.concatenate([[_NEAREST_RUPTURE, 1.0], random.uniform(_NEAREST_RUPTURE, 1.0, 6)])
+    near_contact = 1.0 - 10.0 ** random.uniform(-3.5, -1.0, 4)  # where the force of a small volume falls fast
+    q = np.concatenate([[_NEAREST_RUPTURE, 1.0], random.uniform(_NEAREST_RUPTURE, 1.0, 6), near_contact])
     worst = np.zeros(3)
     for side in range(task.sides):
         control = np.exp(random.uniform(math.log(task.low), math.log(task.high), count))
         share = random.uniform(0.0, 1.0, count)
         share[::4] = 1.0 - 10.0 ** random.uniform(-6.0, 0.0, share[::4].size)  # next to the largest ratio
         share[1::8] = 0.0
+        control[:4], share[:4] = np.repeat([task.low, task.high], 2), [0.0, 1.0, 0.0, 1.0]  # and at the corners
         size = low + (high - low) * share
         worst = np.maximum(worst, _errors(grid, task, control, size, side, q))
     force, rupture, liquid = worst.tolist()

@@ -4,8 +4,10 @@ import hashlib
 import io
 import json
 import zipfile
+import zlib
 from collections.abc import Mapping
 from pathlib import Path
+from tokenize import TokenError
 from typing import Any
 
 import numpy as np
@@ -13,8 +15,10 @@ from numpy.typing import NDArray
 
 __all__ = ["load", "save"]
 
-_FORMAT = 1
+_FORMAT = 2
 _DESCRIPTION = "description"
+# What reading an archive with wrong bytes raises; RuntimeError of those that name an encryption or a compression.
+_DAMAGES = (KeyError, ValueError, TypeError, EOFError, RuntimeError, zipfile.BadZipFile, zlib.error, TokenError)
 
 
 def _shuffled(array: NDArray[Any]) -> NDArray[np.uint8]:
@@ -55,7 +59,7 @@ def load(path: Path) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
             }
     except OSError as error:
         raise ValueError(f"path: '{path}' cannot be read: {error.strerror or error}") from error
-    except (KeyError, ValueError, TypeError, zipfile.BadZipFile) as error:
+    except _DAMAGES as error:
         raise ValueError(f"path: '{path}' is not a table, or damaged") from error
     if description["format"] != _FORMAT:
         raise ValueError(f"path: '{path}' has format {description['format']}, known is {_FORMAT}")

@@ -1,0 +1,227 @@
+"""Exact bridges of one octave of the control as Chebyshev series, which answer for all that lies between them.
+
+A table has many more nodes than it takes to know the bridges: they are analytic in the logarithm of the control, in the
+size of the pair, and in the coordinate q of :mod:`~pendular.exact.fractions`, stretched at a constant volume. Series of
+some ten to forty terms reach far below the tolerance of the table.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .._jit import in_chunks, kernel
+from ..exact.equilibrium import Solids
+from ..exact.fractions import fractions_range, stretch_of
+from ..exact.middle import CURVATURE, VOLUME
+from ..exact.neighbours import BLOCK, blocks_range
+from .cuts import chebyshev
+from .task import Task
+
+Floats = NDArray[np.float64]
+
+_CHUNK, _SAMPLED_CHUNK = 64, 1024  # curves that one thread takes at a time
+_SIZE_TERMS = 12
+_CONTROL_TERMS, _Q_TERMS = (2, 1), (8, 4)  # at least, and more for each digit of the tolerance
+_TAIL = 0.02  # of the tolerance: what the last terms in the size may be
+_MOST_HALVINGS = {False: 14, True: 10}  # of the panels at the ends, under suction and at a constant volume
+_INNER_WIDTH = 1.0 / 32.0  # least one of other panels, over the range
+
+
+class Curves(NamedTuple):
+    """Exact bridges: for each curve the rupture distance, and at each of its q the force and the liquid."""
+
+    rupture: Floats  # (curves,)
+    values: Floats  # (curves, q, 2)
+
+
+class Sample(NamedTuple):
+    """Chebyshev coefficients of an octave of the control, in panels of the size; a kernel evaluates them."""
+
+    exponent: float  # of the octave
+    power: float  # of the size, in which the panels lie: near-equal spheres at a constant volume have steep curves
+    edges: Floats  # (panels + 1,)
+    rupture: Floats  # (panels, size, control)
+    values: Floats  # (panels, size, control, force or liquid, q)
+    is_stretched: bool
+
+
+def _pairs(task: Task, control: Floats, size: Floats, side: int) -> Floats:
+    """Rows of (control, k1, θ1, k2, θ2) in units of R̄."""
+    s = np.sqrt(np.maximum(size, 0.0)) if task.sides == 1 else size
+    larger = 1.0 - s if side == 0 else 1.0 + s
+    angle1, angle2 = (np.full(control.size, angle) for angle in task.angles)
+    return np.column_stack([control, 2.0 - larger, angle1, larger, angle2])
+
+
+def exact_curves(task: Task, control: Floats, size: Floats, side: int, q: Floats) -> Curves:
+    """Solve for the curves at controls and sizes, all at the same q, each for itself."""
+    order = np.argsort(q)
+    ascending = np.broadcast_to(q[order], (control.size, q.size))
+    found = Curves(np.empty(control.size), np.empty((control.size, q.size, 2)))
+    held = VOLUME if task.is_volume else CURVATURE
+    in_chunks(fractions_range, control.size, _CHUNK, held, _pairs(task, control, size, side), ascending, *found)
+    values = np.empty_like(found.values)
+    values[:, order] = found.values
+    return Curves(found.rupture, values)
+
+
+def _neighbouring_curves(task: Task, control: Floats, size: Floats, side: int, q: Floats) -> Curves:
+    """Solve for the curves at controls and sizes, neighbours next to each other, all at the same q, ascending."""
+    found = Curves(np.empty(control.size), np.empty((control.size, q.size, 2)))
+    blocks = -(-control.size // BLOCK)
+    held = VOLUME if task.is_volume else CURVATURE
+    pairs = _pairs(task, control, size, side)
+    in_chunks(blocks_range, blocks, 1, held, pairs, q, *found, np.zeros(blocks, np.int64))
+    return found
+
+
+def _to_series(values: Floats, axis: int) -> Floats:
+    """Chebyshev coefficients from values at the interpolation points along an axis."""
+    terms = values.shape[axis]
+    matrix = np.linalg.inv(np.polynomial.chebyshev.chebvander(chebyshev(terms), terms - 1))
+    return np.moveaxis(np.tensordot(matrix, values, (1, axis)), 0, axis)
+
+
+def _terms(task: Task, numbers: tuple[int, int]) -> int:
+    """Number of terms that the tolerance takes."""
+    return numbers[0] + round(-numbers[1] * math.log10(task.tolerance))
+
+
+class Domain(NamedTuple):
+    """What a sample covers: an octave of the control, one solid or the other the smaller; the power of the size."""
+
+    exponent: int
+    side: int
+    power: float
+
+
+class Panels(NamedTuple):
+    """Series in panels of the size; their last terms in the size and in the control, in units of the tolerance."""
+
+    rupture: Floats
+    values: Floats
+    size_tails: Floats
+    control_tails: Floats
+
+
+def _tails(task: Task, of_rupture: Floats, of_values: Floats, units: tuple[Floats, Floats], axis: int) -> Floats:
+    """Largest of the last two terms along an axis, of each panel."""
+    if of_rupture.shape[axis] == 1:
+        return np.zeros(of_rupture.shape[0])
+    last = [np.abs(np.take(of, [-2, -1], axis)).reshape(len(of), -1).max(axis=1) for of in (of_rupture, of_values)]
+    tails: Floats = np.maximum(last[0] / units[0] / task.rupture_tolerance, last[1] / units[1] / task.tolerance)
+    return tails
+
+
+def _solve_panels(task: Task, domain: Domain, edges: Floats, terms: int) -> Panels:
+    """Series of the bridges in panels, given by their ends: (panels, 2)."""
+    size_terms = 1 if task.sizes[0] == task.sizes[1] else _SIZE_TERMS
+    control = np.exp2(domain.exponent + 0.5 + 0.5 * chebyshev(terms))
+    along = edges.mean(axis=1)[:, None] + 0.5 * np.diff(edges) * chebyshev(size_terms)
+    q = 0.5 - 0.5 * chebyshev(_terms(task, _Q_TERMS))
+    shape = (*along.shape, control.size)
+    controls, sizes = (np.broadcast_to(each, shape).ravel() for each in (control, along[..., None] ** domain.power))
+    found = _neighbouring_curves(task, controls, sizes, domain.side, q)
+    rupture = found.rupture.reshape(shape)
+    values = np.moveaxis(found.values.reshape(*shape, q.size, 2), 4, 3)[..., ::-1]
+    units = rupture.min(axis=(1, 2)), np.abs(values[..., 0, 0]).min(axis=(1, 2))  # the first q is contact
+    of_rupture = _to_series(_to_series(rupture, 1), 2)
+    of_values = _to_series(_to_series(_to_series(values, 1), 2), 4)
+    tails = [_tails(task, of_rupture, of_values[:, :, :, 0], units, axis) for axis in (1, 2)]
+    return Panels(of_rupture, of_values, *tails)
+
+
+def _halve(task: Task, domain: Domain, edges: Floats, terms: int) -> tuple[Floats, Panels]:
+    """Panels, halved until their series are short enough, or too thin to be of use in the cells of a table."""
+    start, stop = edges[0], edges[-1]
+    waiting = np.column_stack([edges[:-1], edges[1:]])
+    done: list[tuple[float, ...]] = []
+    while waiting.size:
+        panels = _solve_panels(task, domain, waiting, terms)
+        width, middle = np.diff(waiting)[:, 0], waiting.mean(axis=1)
+        from_end = np.minimum(middle - start, stop - middle)
+        thinnest = (stop - start) * 0.5 ** _MOST_HALVINGS[task.is_volume]
+        least = np.maximum(thinnest, np.minimum(_INNER_WIDTH * (stop - start), 0.25 * from_end))
+        is_good = (panels.size_tails < _TAIL) | (width <= 1.001 * least)
+        done += [(waiting[i, 0], *(field[i] for field in panels)) for i in np.flatnonzero(is_good)]
+        halved, middle = waiting[~is_good], middle[~is_good, None]
+        waiting = np.concatenate([np.hstack([halved[:, :1], middle]), np.hstack([middle, halved[:, 1:]])])
+    done.sort(key=lambda panel: panel[0])
+    firsts, *fields = zip(*done, strict=True)
+    return np.array([*firsts, stop]), Panels(*(np.array(field) for field in fields))
+
+
+def sample_octave(task: Task, exponent: int, side: int, before: Sample | None) -> Sample:
+    """Solve for the bridges of an octave, in the panels of the octave before, and halves of them."""
+    domain = Domain(exponent, side, 3.0 if task.sides == 1 and task.is_volume else 1.0)
+    terms = _terms(task, _CONTROL_TERMS)
+    edges = np.array(task.sizes) ** (1.0 / domain.power) if before is None else before.edges
+    edges, panels = _halve(task, domain, edges, terms)
+    if panels.control_tails.max() > _TAIL:
+        edges, panels = _halve(task, domain, edges, 2 * terms)
+    return Sample(float(exponent), domain.power, edges, panels.rupture, panels.values, task.is_volume)
+
+
+@kernel
+def _fill_chebyshev(x: float, out: Floats) -> None:
+    """Chebyshev polynomials of x."""
+    for k in range(out.size):
+        out[k] = 1.0 if k == 0 else (x if k == 1 else 2.0 * x * out[k - 1] - out[k - 2])
+
+
+@kernel
+def _stretched(q: float, rupture: float, stretch: float) -> float:
+    """√(1 - asinh(D/d)/asinh(D_c/d)) for q = √(1 - D/D_c), without cancellation near rupture."""
+    a = rupture / stretch
+    b = a * (1.0 - q * q)
+    square = a * a * q * q * (2.0 - q * q)  # a² - b²
+    return math.sqrt(math.asinh(square / (a * math.sqrt(1.0 + b * b) + b * math.sqrt(1.0 + a * a))) / math.asinh(a))
+
+
+@kernel
+def _sampled_range(
+    sample: Sample, control: Floats, size: Floats, q: Floats, rupture: Floats, values: Floats, start: int, stop: int
+) -> None:
+    """Curves at controls and sizes, from the series."""
+    of_size, of_control = np.empty(sample.rupture.shape[1]), np.empty(sample.rupture.shape[2])
+    terms = sample.values.shape[4] if q.size > 0 else 0
+    force, liquid = series = np.empty((2, terms))
+    last = sample.edges.size - 2
+    for i in range(start, stop):
+        place = max(size[i], 0.0) ** (1.0 / sample.power)
+        panel = 0
+        while panel < last and place > sample.edges[panel + 1]:
+            panel += 1
+        width = sample.edges[panel + 1] - sample.edges[panel]
+        y = 2.0 * (place - sample.edges[panel]) / width - 1.0 if width > 0.0 else 0.0
+        _fill_chebyshev(y, of_size)
+        _fill_chebyshev(2.0 * (math.log2(control[i]) - sample.exponent) - 1.0, of_control)
+        force[:] = 0.0
+        liquid[:] = 0.0
+        rupture[i] = 0.0
+        for j in range(of_size.size):
+            for k in range(of_control.size):
+                weight = of_size[j] * of_control[k]
+                rupture[i] += weight * sample.rupture[panel, j, k]
+                for n in range(terms):
+                    force[n] += weight * sample.values[panel, j, k, 0, n]
+                    liquid[n] += weight * sample.values[panel, j, k, 1, n]
+        stretch = stretch_of(control[i], Solids(1.0, 0.0, 1.0, 0.0))
+        for n in range(q.size):
+            at = _stretched(q[n], rupture[i], stretch) if sample.is_stretched else q[n]
+            z = 2.0 * at - 1.0
+            for c in range(2):
+                b1, b2 = 0.0, 0.0
+                for k in range(terms - 1, 0, -1):
+                    b1, b2 = 2.0 * z * b1 - b2 + series[c, k], b1
+                values[i, n, c] = z * b1 - b2 + series[c, 0]
+
+
+def curves_of(sample: Sample, control: Floats, size: Floats, q: Floats) -> Curves:
+    """Curves at controls and sizes, all at the same q, from the sample of their octave."""
+    control, size = (np.ravel(numbers) for numbers in np.broadcast_arrays(control, size))
+    found = Curves(np.empty(control.size), np.empty((control.size, q.size, 2)))
+    in_chunks(_sampled_range, control.size, _SAMPLED_CHUNK, sample, control, size, q, *found)
+    return found

@@ -1,0 +1,34 @@
+"""What a table is made for."""
+
+from typing import NamedTuple
+
+_RUPTURE_SHARES = {False: 0.003, True: 0.03}  # of the tolerance, under suction and at constant volume, relative
+
+
+class Task(NamedTuple):
+    """What is tabulated."""
+
+    angles: tuple[float, float]
+    is_volume: bool
+    low: float
+    high: float
+    low_ratio: float
+    high_ratio: float
+    tolerance: float
+    share: float  # of the tolerance for one coordinate
+
+    @property
+    def rupture_tolerance(self) -> float:
+        """For one coordinate, relative; small, as a bridge near rupture feels the square root of the error."""
+        return _RUPTURE_SHARES[self.is_volume] * self.tolerance
+
+    @property
+    def sides(self) -> int:
+        """Two if it matters which of the solids is the smaller."""
+        return 1 if self.angles[0] == self.angles[1] else 2
+
+    @property
+    def sizes(self) -> tuple[float, float]:
+        """Range of the size variable u."""
+        low, high = ((1.0 - 1.0 / ratio) / (1.0 + 1.0 / ratio) for ratio in (self.low_ratio, self.high_ratio))
+        return (low * low, high * high) if self.sides == 1 else (low, high)
