@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from ._check import in_range, one_of, plain, quantity
 from .by_dataset import bridge_by_dataset, rupture_by_dataset
 from .by_law import bridge_by_law, rupture_by_law
+from .by_table import bridge_by_table, rupture_by_table
 from .exact import tracing
 from .exact.equilibrium import Solids, State
 from .laws import laws
@@ -20,6 +21,10 @@ from .result import FIELDS, Bridge, Profile
 __all__ = ["FIELDS", "Bridge", "ConvergenceWarning", "Pair", "Profile", "bridge", "curve", "rupture"]
 
 Floats = NDArray[np.float64]
+
+# Methods that are neither exact nor a law.
+_BRIDGES = {"table": bridge_by_table, "dataset": bridge_by_dataset}
+_RUPTURES = {"table": rupture_by_table, "dataset": rupture_by_dataset}
 
 
 def bridge(
@@ -35,8 +40,8 @@ def bridge(
 ) -> Bridge:
     r"""Capillary bridge between two solids at a separation, exactly.
 
-    .. math:: \frac{Y''}{(1+Y'^2)^{3/2}} - \frac{1}{Y\sqrt{1+Y'^2}} = \frac{\Delta p}{\gamma}
-        \qquad \text{(Zhao et al. 2020, Eq. 8)} \\ F = 2\pi\gamma\lambda \qquad \text{(Eq. 11)}
+    .. math:: & \frac{Y''}{(1+Y'^2)^{3/2}} - \frac{1}{Y\sqrt{1+Y'^2}} = \frac{\Delta p}{\gamma}
+        \quad \text{([1], Eq. 8)} \\ & F = 2\pi\gamma\lambda \quad \text{(Eq. 11)}
 
     Parameters
     ----------
@@ -55,9 +60,11 @@ def bridge(
     branch : {"stable", "unstable"}
         Of the two bridges that meet at the rupture distance: the one connected with the contact, or the other.
     method : str
-        ``"exact"``; ``"dataset"``, the interpolation of the paper; or the name of a law in ``pendular.laws``. But for
-        the exact method the answer holds the force only. A law of the other control is asked with the volume or the
-        suction of the exact bridge; one at constant suction has no answer where that suction would not hold the bridge.
+        ``"exact"``; ``"table"``, the exact answer from a :class:`Table` that is made first, for very many bridges;
+        ``"dataset"``, the interpolation of the paper; or the name of a law in ``pendular.laws``. A table gives force,
+        stiffness, volume and suction, the data base and a law the force only. A law of the other control is asked with
+        the volume or the suction of the exact bridge; one at constant suction has no answer where that suction would
+        not hold the bridge.
 
     Returns
     -------
@@ -100,7 +107,7 @@ def bridge(
     problem = reduce(pair, control, liquid, separation)
     if _is_approximate(method):
         one_of("branch", branch, ("stable",))
-        return bridge_by_dataset(problem) if method == "dataset" else bridge_by_law(problem, method)
+        return _BRIDGES[method](problem) if method in _BRIDGES else bridge_by_law(problem, method)
     answer = _echo(solve(problem, branch), separation=problem.separation)
     if humidity is not None:
         _judge_humidity(pair, separation, control, liquid, branch, answer)
@@ -131,7 +138,8 @@ def rupture(
         at constant volume between equal solids of equal contact angle, above about 31°, where the liquid slides to one
         side before the fold.
     method : str
-        ``"exact"``, ``"dataset"``, or the name of a law of the given control in ``pendular.laws``.
+        ``"exact"``, ``"table"``, ``"dataset"``, or the name of a law of the given control in ``pendular.laws``. At
+        constant volume a table knows the limit of stability.
 
     Returns
     -------
@@ -172,8 +180,8 @@ def rupture(
         warn_kelvin(liquid.surface_tension / control.value, 0.0, stacklevel=2)
     problem = reduce(pair, control, liquid, 0.0)
     if _is_approximate(method):
-        one_of("limit", limit, ("fold",))
-        return rupture_by_dataset(problem) if method == "dataset" else rupture_by_law(problem, method)
+        one_of("limit", limit, ("stability",) if (method, control.name) == ("table", "volume") else ("fold",))
+        return _RUPTURES[method](problem) if method in _RUPTURES else rupture_by_law(problem, method)
     return solve(problem, limit)
 
 
@@ -228,8 +236,8 @@ def curve(
 
 
 def _is_approximate(method: str) -> bool:
-    """Whether a method is the data base or a law of the registry; what is neither that nor exact is refused."""
-    one_of("method", method, ("exact", "dataset", *laws))
+    """Whether a method is a table, the data base or a law of the registry; any other but exact is refused."""
+    one_of("method", method, ("exact", *_BRIDGES, *laws))
     return method != "exact"
 
 
