@@ -1,0 +1,132 @@
+"""What `test_cuda.py` runs in processes of its own: ``python tests/on_cuda.py simulate|page|compile FOLDER``.
+
+In Numba's simulator, which needs ``NUMBA_ENABLE_CUDASIM=1``, threads of the GPU run as Python; ``NUMBA_DISABLE_JIT=1``
+makes Python of the scalar kernels as well.
+"""
+
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+from numba import cuda, typeof, types
+
+import pendular as pl
+from documents import assert_python_prints_what_it_says
+from pendular.table import cuda as table_on_gpu
+from pendular.table import kernels
+
+NAMES = ("force", "liquid", "stiffness", "energy", "rupture_distance")
+PAGE = Path(__file__).parents[1] / "docs" / "howto" / "gpu.md"
+PAGE_ASKS = {"contact_angle": np.deg2rad(20), "reduced": (1.0, 1e4)}
+GAMMA = 0.0728
+
+
+def kernel_arguments(name, arguments):
+    """A rupture distance depends on all but the separation."""
+    return arguments[1:] if name == "rupture_distance" else arguments
+
+
+@cuda.jit
+def work_of(grid, separation, control, radius1, radius2, out):
+    """A kernel as users write them: two questions to the table in one thread."""
+    i = cuda.grid(1)
+    if i < out.size:
+        force = kernels.force(grid, separation[i], control[i], radius1[i], radius2[i], 0.0728)
+        stiffness = kernels.stiffness(grid, separation[i], control[i], radius1[i], radius2[i], 0.0728)
+        out[i] = force + 1e-9 * stiffness
+
+
+def refusal(function, *arguments, **options):
+    """Words of the error that a call raises."""
+    try:
+        function(*arguments, **options)
+    except ValueError as error:
+        return str(error)
+    return ""
+
+
+def simulate(folder):
+    """Answers of each table in the folder to its contacts, by all ways to ask."""
+    for path in sorted(folder.glob("*.contacts.npz")):
+        name = path.name.removesuffix(".contacts.npz")
+        table = table_on_gpu.to_device(pl.load_table(folder / f"{name}.npz"))
+        arguments = tuple(np.load(path).values())
+        found = {
+            asked: getattr(table, asked)(*kernel_arguments(asked, arguments), np.full(1, GAMMA)) for asked in NAMES
+        }
+        out = cuda.device_array(arguments[0].size)
+        work_of[4, (out.size + 3) // 4](table.grid, *map(cuda.to_device, arguments), out)
+        np.savez(folder / f"{name}.answers.npz", own_kernel=out.copy_to_host(), **found)
+    check_arrays(table, *arguments)
+
+
+def check_arrays(table, separation, control, radius1, radius2):
+    """Numbers, arrays on the host and on the device, of any shape, go in and out alike."""
+    pair = (control[0], radius1[0], radius2[0], GAMMA)
+    expected = table.force(separation[:6], *pair)
+    assert isinstance(expected, np.ndarray)
+    assert expected.any()
+    assert table.force(separation[0], *pair) == expected[0]
+    gaps = cuda.to_device(separation[:6].reshape(2, 3))
+    there = table.force(gaps, *pair)
+    assert there.shape == (2, 3)
+    assert np.array_equal(there.copy_to_host().ravel(), expected)
+    on_device, on_host = cuda.device_array((2, 3)), np.empty((2, 3))
+    assert table.force(gaps, *pair, out=on_device) is on_device
+    assert np.array_equal(on_device.copy_to_host(), there.copy_to_host())
+    assert table.force(gaps, *pair, out=on_host) is on_host
+    assert np.array_equal(on_host, there.copy_to_host())
+    rows = table.force(separation[:6].reshape(2, 3), control[:2].reshape(2, 1), *pair[1:])
+    assert np.array_equal(rows[0], expected[:3], equal_nan=True)
+    assert table.force(np.empty(0), *pair).shape == (0,)
+    one = cuda.to_device(np.array(separation[0]))
+    assert table.force(one, *pair).copy_to_host() == expected[0]
+
+    assert "out: is not of shape (2, 3)" in refusal(table.force, gaps, *pair, out=cuda.device_array(1))
+    assert "out: is not a contiguous float64" in refusal(table.force, gaps, *pair, out=np.empty(6))
+    single = cuda.to_device(np.ones(6, np.float32))
+    assert "separation: is not a contiguous float64 array" in refusal(table.force, single, *pair)
+    few = cuda.to_device(control[:3])
+    assert "of shape (3,) is not repeated to (2, 3)" in refusal(table.force, gaps, few, *pair[1:])
+
+
+def run_page(folder):
+    """The page of the documentation in the simulator, with its table from a file."""
+
+    def tabulate(contact_angle, *, reduced):
+        assert {"contact_angle": contact_angle, "reduced": reduced} == PAGE_ASKS
+        return pl.load_table(folder / "page.npz")
+
+    pl.tabulate = tabulate
+    assert_python_prints_what_it_says(PAGE.read_text(encoding="utf-8"))
+
+
+def compile_to_ptx(folder):
+    """Machine code for a GPU that need not be here: of the loops, and of a kernel as users write them."""
+    if find_spec("numba_cuda") is None:
+        sys.exit("numba-cuda is not installed")
+    import numba.cuda.cuda_paths
+    import numba.cuda.dispatcher
+    from numba.cuda.cudadrv.nvvm import NVVM
+
+    numba.cuda.cuda_paths._get_nvrtc_path = lambda: None  # a compiler of C++, which Numba looks for at once
+    try:
+        NVVM()
+    except (ImportError, OSError, RuntimeError) as reason:
+        sys.exit(f"NVVM is not installed: {str(reason).strip().splitlines()[0]}")
+    # A function that is called by another is compiled for the current device, which only a driver knows.
+    numba.cuda.dispatcher.get_current_device = lambda: SimpleNamespace(compute_capability=(8, 0))
+    grid, row = typeof(pl.load_table(folder / "page.npz").grid), types.float64[::1]
+    scalars = [getattr(kernels, name) for name in NAMES[:-1]] + [table_on_gpu._rupture_distance]
+    for scalar in scalars:
+        loop = table_on_gpu.loop_of(scalar).py_func
+        text, _ = cuda.compile(loop, types.void(grid, *6 * (row,)), device=False, abi="numba", cc=(8, 0))
+        (folder / f"{scalar.__name__.strip('_')}.ptx").write_text(text)
+    text, _ = cuda.compile(work_of.py_func, types.void(grid, *5 * (row,)), device=False, abi="numba", cc=(8, 0))
+    (folder / "own_kernel.ptx").write_text(text)
+
+
+if __name__ == "__main__":
+    {"simulate": simulate, "page": run_page, "compile": compile_to_ptx}[sys.argv[1]](Path(sys.argv[2]))

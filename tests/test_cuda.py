@@ -1,0 +1,120 @@
+"""Tables on a GPU: the scalar kernels in Numba's simulator against those of the processor, and compiled for a GPU."""
+
+import math
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pendular as pl
+from on_cuda import GAMMA, NAMES, PAGE_ASKS, kernel_arguments
+from pendular.table import kernels
+
+SCRIPT = Path(__file__).parent / "on_cuda.py"
+SIMULATOR = {"NUMBA_ENABLE_CUDASIM": "1", "NUMBA_DISABLE_JIT": "1"}
+SEED = 20261123
+COUNT = 48
+TABLES = {
+    "suction": {"contact_angle": 0.35, "reduced": (1.0, 1e4), "tolerance": 1e-7},
+    "two_angles": {"contact_angle": (0.2, 0.9), "reduced": (10.0, 1e3), "tolerance": 1e-6},
+    "volume": {
+        "contact_angle": 0.35,
+        "control": "volume",
+        "reduced": (1e-3, 2e-3),
+        "radius_ratio": (1.0, 2.0),
+        "tolerance": 1e-5,
+    },
+}
+
+
+def run(task, folder, **environment):
+    """One task in a process of its own."""
+    return subprocess.run(
+        [sys.executable, "-W", "error", str(SCRIPT), task, str(folder)],
+        env=os.environ | {"PYTHONPATH": str(SCRIPT.parents[1])} | environment,
+        check=False,
+        capture_output=True,
+        text=True,
+    )
+
+
+def contacts(table, random):
+    """Gaps in an overlap, up to rupture and beyond; then a plane, NaN in each place, and controls out of range."""
+    radius1 = 10.0 ** random.uniform(-6, -4, COUNT)
+    radius2 = radius1 * random.uniform(1.0, 2.0, COUNT) ** random.choice([-1, 1], COUNT)
+    mean = 2.0 * radius1 * radius2 / (radius1 + radius2)
+    reduced = np.exp(random.uniform(*np.log(table.reduced), COUNT))
+    control = reduced * mean**3 if table.control == "volume" else reduced * GAMMA / mean
+    rupture = table.rupture_distance(control, radius1, radius2, GAMMA)
+    separation = random.uniform(-0.1, 1.1, COUNT) * rupture
+    radius1[6:8] = math.inf, math.nan
+    control[8:11] = math.nan, 1e9 * control[9], -control[10]
+    separation[11:14] = math.nan, math.inf, 0.0
+    return separation, control, radius1, radius2
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Tables and contacts, for processes that compile nothing for this processor."""
+    path = tmp_path_factory.mktemp("cuda")
+    print(f"seed {SEED}")
+    random = np.random.default_rng(SEED)
+    for name, options in TABLES.items():
+        table = pl.tabulate(**options)
+        table.save(path / f"{name}.npz")
+        np.savez(path / f"{name}.contacts.npz", *contacts(table, random))
+    pl.tabulate(**PAGE_ASKS).save(path / "page.npz")
+    return path
+
+
+@pytest.fixture(scope="module")
+def simulated(folder):
+    done = run("simulate", folder, **SIMULATOR)
+    assert done.returncode == 0, done.stderr
+    return {name: dict(np.load(folder / f"{name}.answers.npz")) for name in TABLES}
+
+
+@pytest.mark.parametrize("asked", NAMES)
+@pytest.mark.parametrize("name", TABLES)
+def test_answers_are_those_of_the_processor(name, asked, simulated, folder):
+    grid = pl.load_table(folder / f"{name}.npz").grid
+    rows = np.column_stack(list(np.load(folder / f"{name}.contacts.npz").values())).tolist()
+    one = getattr(kernels, asked)
+    expected = [one(grid, *kernel_arguments(asked, (*row, GAMMA))) for row in rows]
+    found = simulated[name][asked]
+    np.testing.assert_allclose(found, expected, rtol=1e-12, err_msg="the two sum in another order, no more")
+    assert np.array_equal(found == 0.0, np.equal(expected, 0.0))
+    assert np.isfinite(found).sum() > COUNT / 2
+    assert np.isnan(found[7:11]).all()
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_a_kernel_of_ones_own_may_ask(name, simulated):
+    answers = simulated[name]
+    np.testing.assert_array_equal(answers["own_kernel"], answers["force"] + 1e-9 * answers["stiffness"])
+    assert np.isfinite(answers["own_kernel"]).sum() > COUNT / 2
+
+
+def test_the_page_does_what_it_shows(folder):
+    done = run("page", folder, **SIMULATOR)
+    assert done.returncode == 0, done.stderr
+
+
+def test_the_kernels_compile_for_a_gpu(folder):
+    done = run("compile", folder, NUMBA_FORCE_CUDA_CC="8.0")
+    if "is not installed" in done.stderr:
+        pytest.skip(done.stderr.strip())
+    assert done.returncode == 0, done.stderr
+    for name in (*NAMES, "own_kernel"):
+        text = (folder / f"{name}.ptx").read_text()
+        assert ".target sm_80" in text
+        assert text.count(".entry") == 1
+        assert ".extern .func" not in text, "calls what no GPU has"
+
+
+def test_nothing_loads_it_unasked():
+    code = "import sys, pendular, pendular.table.table; assert 'numba.cuda' not in sys.modules"
+    subprocess.run([sys.executable, "-c", code], check=True)
