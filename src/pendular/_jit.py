@@ -26,17 +26,25 @@ def _stamp_of(*folders: str) -> tuple[float, int]:
     return max(stat.st_mtime for stat in stats), sum(stat.st_size for stat in stats)
 
 
+def _folders_of(file: Path) -> tuple[str, ...]:
+    """Folders whose kernels one in this file may use."""
+    if file.parent == _HOME / "exact":
+        return ("exact",)
+    shared = ("exact", "laws", "table")
+    return shared if file.parent.name in shared else (*shared, str(file.parent))
+
+
 def kernel(function: Callable[..., Any]) -> Any:
     """Compile a kernel, free of the interpreter's lock, and outdate its cached code when a kernel it may use changes.
 
     Numba looks only at the file of the function itself, and would go on using machine code that contains the
-    former version of a kernel from another file. The exact solver uses no other folder; all else may use all.
+    former version of a kernel from another file. The exact solver uses no other folder; all else may use all, and the
+    files beside its own.
     """
     dispatcher = njit(cache=True, error_model="numpy", nogil=True)(function)
     cache_file = getattr(getattr(dispatcher, "_cache", None), "_cache_file", None)  # absent with the compiler off
     if cache_file is not None:
-        is_exact = function.__module__.startswith("pendular.exact")
-        cache_file._source_stamp = _stamp_of("exact") if is_exact else _stamp_of("exact", "laws", "table")
+        cache_file._source_stamp = _stamp_of(*_folders_of(Path(function.__code__.co_filename)))
     return dispatcher
 
 
