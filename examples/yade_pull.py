@@ -1,6 +1,6 @@
 """Two grains that touch and are pulled apart, in YADE, under constant suction.
 
-To be run by YADE in a folder with its tables for a contact angle of 20 degrees; `yade_pull_picture.py` does it all:
+To be run by YADE in a folder with its tables for a contact angle of 20 degrees; `two_grains.py` does it all:
 
     pendular export yade --contact-angle 20 --out tables
     cd tables && yade -n -x ../examples/yade_pull.py

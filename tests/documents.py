@@ -98,7 +98,7 @@ def can_be_run(program: str, arguments: list[str]) -> bool:
     """Whether a command that a test should not run names what exists: a script, a development tool, this package."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     if program == "pip":
-        extras = [f"pendular[{name}]" for name in project["project"]["optional-dependencies"]]
+        extras = [f".[{name}]" for name in project["project"]["optional-dependencies"]]
         return arguments[0] == "install" and arguments[1] in (".", "uv", *extras)
     if program == "uv":
         return arguments[:2] == ["sync", "--group"] and arguments[2] in project["dependency-groups"]

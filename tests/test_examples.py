@@ -9,8 +9,13 @@ import pytest
 from tools.site_parts import run_script
 
 FOLDER = Path(__file__).parents[1] / "examples"
-NEEDS_YADE = {"yade_pull.py", "yade_pull_picture.py"}  # run by test_yade_run.py
-SCRIPTS = sorted(path for path in FOLDER.glob("*.py") if path.name not in NEEDS_YADE)
+ELSEWHERE = {  # run by test_yade_run.py and test_lammps_examples.py
+    "yade_pull.py",
+    "two_grains.py",
+    "wet_shear.py",
+    "wet_shear_picture.py",
+}
+SCRIPTS = sorted(path for path in FOLDER.glob("*.py") if path.name not in ELSEWHERE)
 
 
 def by_stem(path):

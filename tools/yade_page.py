@@ -129,9 +129,10 @@ print(f"{float(found.force):.3e} N in YADE")
 two-grain scenes in it, at ten ratios and others, three contact angles, four suctions and gaps from overlap to beyond
 rupture, and compares what it reports with the exact solution.
 [`examples/yade_pull.py`](../examples/yade_pull.py) is a whole script: two grains touch and are pulled apart. `uv run
-python examples/yade_pull_picture.py docs/images/yade_pull.png` runs it and draws its force on the exact curve.
+python examples/two_grains.py docs/images/two_grains.svg` runs it, and the same in [LAMMPS](lammps.md), and draws both
+on the exact curve.
 
-![Force of YADE on the exact curve, from contact to rupture](images/yade_pull.png)
+![Force of YADE and LAMMPS on the exact curve, from contact to rupture](images/two_grains.svg)
 """
 
 
