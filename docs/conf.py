@@ -1,5 +1,6 @@
 """How the site is built: ``sphinx-build -W docs out/site``; nothing on its pages comes from the network."""
 
+import re
 import sys
 from importlib.metadata import version as version_of
 from pathlib import Path
@@ -45,8 +46,28 @@ html_theme_options = {
 }
 
 
+def keep_initials(app: Sphinx, what: str, name: str, thing: object, options: object, lines: list[str]) -> None:
+    """Keep a reference that begins with an initial, ``J. Jasper``, from becoming item J of a list."""
+    lines[:] = [re.sub(r"^( *\.\. \[[^]]+\] )(?=[A-Z]\. )", r"\1\\", line) for line in lines]
+
+
+def skip_fields(app: Sphinx, what: str, name: str, thing: object, skip: bool, options: object) -> bool | None:
+    """Leave out the fields of named tuples: the signature has them, and Python's text for them says nothing."""
+    return True if getattr(thing, "__doc__", None) and thing.__doc__.startswith("Alias for field number") else None
+
+
+def finish(app: Sphinx, page: str, template: str, context: dict, doctree: object) -> None:
+    """Let a picture open by itself, to be seen larger, and give citations the numbers that numpydoc hides."""
+    if "body" in context:
+        body = re.sub(r'<img\b[^>]*\bsrc="([^"]*)"[^>]*>', r'<a class="picture" href="\1">\g<0></a>', context["body"])
+        context["body"] = re.sub(r"\[R[0-9a-f]{12}-(\d+)\]", r"[\1]", body)
+
+
 def setup(app: Sphinx) -> None:
     """Have the pictures and tables of the site made before its pages are read."""
     from tools.site_parts import make
 
     app.connect("builder-inited", lambda app: make(Path(app.srcdir)))
+    app.connect("autodoc-process-docstring", keep_initials, priority=900)  # after numpydoc
+    app.connect("autodoc-skip-member", skip_fields)
+    app.connect("html-page-context", finish)

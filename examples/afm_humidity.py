@@ -37,27 +37,29 @@ def report() -> None:
 def draw(path: Path) -> None:
     """Draw the force against the gap at each humidity, and at contact against the humidity."""
     with rc_context({"axes.spines.top": False, "axes.spines.right": False, "svg.fonttype": "path"}):
-        drawing = Figure(figsize=(9.6, 4.0), layout="constrained")
-        left, right = drawing.subplots(1, 2, width_ratios=(3, 2))
+        drawing = Figure(figsize=(5.2, 6.8), layout="constrained")
+        upper, lower = drawing.subplots(2, 1)
     curve = pl.curve(TIP, humidity=HUMIDITY, liquid=WATER, points=201)
     for i, humidity in enumerate(HUMIDITY):
         on = curve.stable[i]
-        left.plot(1e9 * curve.separation[i, on], 1e9 * curve.force[i, on], color=LIQUID_EDGE, lw=1 + i / 3)
+        upper.plot(1e9 * curve.separation[i, on], 1e9 * curve.force[i, on], color=LIQUID_EDGE, lw=1 + i / 3)
         gap, force = 1e9 * curve.separation[i, on][-1], 1e9 * curve.force[i, on][-1]
         shift = -8 if i == 0 else 0  # the first two end close together
-        left.annotate(f"{humidity:.0%}", (gap, force), (shift, -11), textcoords="offset points", ha="center", size=8)
-    left.set(xlabel="gap (nm)", ylabel="force (nN)", ylim=(0, None), title="A tip of 20 nm pulled off a plate")
+        upper.annotate(f"{humidity:.0%}", (gap, force), (shift, -11), textcoords="offset points", ha="center", size=8)
+    upper.set(xlabel="gap (nm)", ylabel="force (nN)", ylim=(0, None), title="A tip of 20 nm pulled off a plate")
     many = np.linspace(0.4, 0.95, 56)
     contact = pl.bridge(TIP, 0.0, humidity=many, liquid=WATER)
     radius = WATER.surface_tension / contact.suction
-    right.plot(100 * many, 1e9 * contact.force, color=ACCENT)
+    lower.plot(100 * many, 1e9 * contact.force, color=ACCENT)
     trusted = 100 * np.interp(DOUBTFUL, radius, many)
-    right.axvspan(40, trusted, color=LIQUID, alpha=0.35, lw=0)
-    right.annotate(
+    lower.axvspan(40, trusted, color=LIQUID, alpha=0.35, lw=0)
+    lower.annotate(
         "meniscus below 4 nm:\ncontinuum doubtful", (41, 0.06 * 1e9 * contact.force.max()), size=9, color=FAINT
     )
-    right.set(xlabel="relative humidity (%)", ylim=(0, None), xlim=(40, 95), title="Force at contact")
-    for axes in (left, right):
+    lower.set(
+        xlabel="relative humidity (%)", ylabel="force (nN)", ylim=(0, None), xlim=(40, 95), title="Force at contact"
+    )
+    for axes in (upper, lower):
         axes.title.set_size(10)
         axes.grid(color=HAIR, alpha=0.25, lw=0.6)
     drawing.savefig(path)

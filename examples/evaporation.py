@@ -39,8 +39,8 @@ def draw(path: Path) -> None:
     """Draw force, volume and suction against the separation, for both pulls."""
     shown = {"force": (1e6, "force (µN)"), "volume": (1e15, "volume (pL)"), "suction": (1e-3, "suction (kPa)")}
     with rc_context({"axes.spines.top": False, "axes.spines.right": False, "svg.fonttype": "path"}):
-        drawing = Figure(figsize=(9.6, 3.6), layout="constrained")
-        panels = drawing.subplots(1, 3)
+        drawing = Figure(figsize=(5.2, 7.4), layout="constrained")
+        panels = drawing.subplots(3, 1, sharex=True)
     for (name, held), color in zip(HELD.items(), (LIQUID_EDGE, ACCENT), strict=True):
         curve = pl.curve(GRAINS, **held, liquid=WATER, points=401)
         on = curve.stable
@@ -50,10 +50,10 @@ def draw(path: Path) -> None:
             axes.plot(gap[~on], value[~on], color=color, lw=1, ls="--")
             end = np.flatnonzero(on)[-1]
             axes.plot(gap[end], value[end], "o", color=color, ms=5)
-            axes.set(xlabel="separation (µm)", title=label)
-            axes.title.set_size(10)
+            axes.set(ylabel=label)
             axes.grid(color=HAIR, alpha=0.25, lw=0.6)
     panels[0].set(ylim=(0, None))
+    panels[-1].set(xlabel="separation (µm)")
     panels[0].legend(frameon=False, fontsize=9)
     drawing.savefig(path)
 

@@ -53,32 +53,32 @@ def draw(path: Path) -> None:
     """Draw force and rupture distance against the suction."""
     suction = np.geomspace(1e3, 1e6, 121)
     with rc_context({"axes.spines.top": False, "axes.spines.right": False, "svg.fonttype": "path"}):
-        drawing = Figure(figsize=(9.6, 4.0), layout="constrained")
-        left, right = drawing.subplots(1, 2)
+        drawing = Figure(figsize=(5.2, 6.8), layout="constrained")
+        upper, lower = drawing.subplots(2, 1)
     gaps = (0.0, 0.1e-6, 1e-6, 5e-6)
     for gap, width in zip(gaps, (2.4, 1.8, 1.3, 0.9), strict=True):
         bridge = pl.bridge(GRAINS, gap, suction=suction, liquid=WATER)
         held = np.where(bridge.exists, 1e6 * bridge.force, np.nan)
-        left.semilogx(1e-3 * suction, held, color=LIQUID_EDGE, lw=width)
+        upper.semilogx(1e-3 * suction, held, color=LIQUID_EDGE, lw=width)
         last = np.flatnonzero(bridge.exists)[-1]
         spot = (1e-3 * suction[last], held[last])
         label = "touching" if gap == 0.0 else f"{1e6 * gap:g} µm"
-        left.annotate(label, spot, (-4, 5 if gap == 0.0 else -10), textcoords="offset points", ha="right", size=8)
-    left.set(ylabel="force (µN)", ylim=(0, None), title="Force at four gaps, each line to where the bridge breaks")
+        upper.annotate(label, spot, (-4, 5 if gap == 0.0 else -10), textcoords="offset points", ha="right", size=8)
+    upper.set(ylabel="force (µN)", ylim=(0, 18), title="Force at four gaps, each line to where the bridge breaks")
     exact = pl.rupture(GRAINS, suction=suction, liquid=WATER).separation
     fit = pl.rupture(GRAINS, suction=suction, liquid=WATER, method="zhao2020").separation
-    right.loglog(1e-3 * suction, 1e6 * exact, color=LIQUID_EDGE, lw=2.4, label="exact")
-    right.loglog(1e-3 * suction, 1e6 * fit, color=ACCENT, lw=1.2, ls="--", label="zhao2020")
-    right.set(ylabel="rupture distance (µm)", title="Rupture distance")
-    right.legend(frameon=False)
-    right.yaxis.set_major_formatter("{x:g}")
-    for axes in (left, right):
+    lower.loglog(1e-3 * suction, 1e6 * exact, color=LIQUID_EDGE, lw=2.4, label="exact")
+    lower.loglog(1e-3 * suction, 1e6 * fit, color=ACCENT, lw=1.2, ls="--", label="zhao2020")
+    lower.set(ylabel="rupture distance (µm)", title="Rupture distance")
+    lower.legend(frameon=False)
+    lower.yaxis.set_major_formatter("{x:g}")
+    for axes in (upper, lower):
         axes.axvspan(1, 1e-3 * pendular_from(), color=LIQUID, alpha=0.35, lw=0)
         axes.set(xlabel="suction (kPa)", xlim=(1, 1000))
         axes.xaxis.set_major_formatter("{x:g}")
         axes.title.set_size(10)
         axes.grid(color=HAIR, alpha=0.25, lw=0.6)
-    left.annotate("neighbours\nmerged", (1.15, 1.0), size=9, color=FAINT)
+    upper.annotate("neighbours\nmerged", (1.15, 1.0), size=9, color=FAINT)
     drawing.savefig(path)
 
 

@@ -39,19 +39,21 @@ CASES = {
 
 
 @functools.cache
-def drawn(name: str, *, with_state: bool = True):
+def drawn(name: str, *, with_state: bool = True, stacked: bool = False):
     solids, separation, control = CASES[name]
     held = {**control, "liquid": WATER}
     end, curve = pl.rupture(solids, **held), pl.curve(solids, **held)
     first = pl.rupture(solids, **held, limit="stability")
     state = pl.bridge(solids, separation, **held) if with_state else None
     earlier = first if first.separation < 0.999999 * end.separation else None
-    return figure(solids, state, curve, end, separation=separation, instability=earlier, title="A title of this length")
+    title = "A title of this length"
+    return figure(solids, state, curve, end, separation=separation, instability=earlier, title=title, stacked=stacked)
 
 
-@pytest.fixture(params=CASES)
+@pytest.fixture(params=itertools.product(CASES, (False, True)), ids=lambda case: f"{case[0]}{' stacked' * case[1]}")
 def picture(request):
-    drawing = drawn(request.param)
+    name, stacked = request.param
+    drawing = drawn(name, stacked=stacked)
     drawing.draw_without_rendering()
     return drawing
 

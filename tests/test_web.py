@@ -222,8 +222,19 @@ def test_a_law_is_laid_over_the_force_with_its_error():
 
 def test_a_law_outside_its_range_says_why():
     cells = {one.law.name: error_cells(one) for one in answer_to(View()).laws}
-    assert "suction_star 3.43708 is outside the range 10000 to inf</span>" in cells["toroidal2020"]
+    assert "H* = 3.437; the law is for \u2265 1e4</span>" in cells["toroidal2020"]
     assert "outside" not in cells["zhao2020"]
+    # A curve that is laid over may leave the range where the state does not.
+    drawn = answer_to(View(control="volume", value="1 pL", laws=("pendular2026",)))
+    assert {one.law.name: one.outside for one in drawn.laws}["pendular2026"] == ""
+
+
+def test_a_state_of_overlapping_solids_lies_within_the_axes():
+    answer = answer_to(View(separation="-1 µm"))
+    layout = curve_chart(answer, PLACES)["layout"]
+    for axis, value in (("xaxis", -1.0), ("yaxis", 1e6 * float(answer.state.force))):
+        low, high = layout[axis]["range"]
+        assert low < value < high
 
 
 def test_every_law_of_the_registry_has_its_row_and_its_own_line():

@@ -99,19 +99,19 @@ def rule(count: int, words: int = 1) -> list[str]:
 
 def summary() -> Iterator[list[str]]:
     """Table of all laws."""
-    yield ["law", "held", "gives", "range", "F", "D_c", "W"]
-    yield rule(7, words=4)
+    yield ["law", "held", "gives", "F", "D_c", "W", "range"]
+    yield [*rule(6, words=3), "---"]
     for law in laws.values():
         errors = [percent(float(error), signed=False) for error in measured_errors(law).of_equal_spheres.largest]
-        given = ", ".join(SHORT[name] for name in law.gives)
-        yield [f"[`{law.name}`](#{law.name})", law.control, given, law.valid_text, *errors]
+        given = ",\N{NO-BREAK SPACE}".join(SHORT[name] for name in law.gives)
+        yield [f"[`{law.name}`](#{law.name})", law.control, given, *errors, in_symbols(law.valid_text)]
 
 
 def section(law: Law) -> str:
     """All about one law."""
     facts = {
         "Held": f"{law.control}; gives {' and '.join(law.gives).replace('_', ' ')}",
-        "Range": f"{law.valid_text} ({stated_range(law)})",
+        "Range": f"{in_symbols(law.valid_text)} ({stated_range(law)})",
         "Two angles": law.angle_rule,
         "Two sizes": law.size_rule,
         "Reference": law.reference + (f", [doi:{law.doi}](https://doi.org/{law.doi})" if law.doi else ""),
@@ -119,12 +119,17 @@ def section(law: Law) -> str:
         "Provenance": law.provenance,
     }
     told = [f"- {name}: {fact}\n" for name, fact in facts.items() if fact]
-    told += [f"- Erratum: {erratum}\n" for erratum in law.errata]
+    told += [f"- Erratum: {in_symbols(erratum)}\n" for erratum in law.errata]
     measured = measured_errors(law)
     tables = [*map(line, error_table(law, measured))]
     if np.any(measured.smaller_over_larger < 1.0):
         tables += ["\nLargest error over all angles:\n\n", *map(line, size_table(law, measured))]
     return f"## {law.name}\n\n{law.title}\n\n```text\n{law.formula}\n```\n\n{''.join(told)}\n{''.join(tables)}\n"
+
+
+def in_symbols(text: str) -> str:
+    """Text of a record with the symbols of the page in place of the names of variables."""
+    return text.replace("suction_star", "H\\*").replace("volume_star", "V\\*")
 
 
 def stated_range(law: Law) -> str:

@@ -17,11 +17,15 @@ import typer
 from tools.code_blocks import code_blocks, commands
 from tools.site_pictures import PICTURES
 
+from pendular import bridge, rupture
 from pendular.cli import app
 from pendular.cli import main as pendular
 from pendular.laws import LAWS
 from pendular.paper.claims import Claim, measure
+from pendular.plot import save
+from pendular.question import read_question
 from pendular.result import FIELDS
+from pendular.units import read
 
 ROOT = Path(__file__).parents[1]
 
@@ -37,14 +41,39 @@ def make(docs: Path) -> None:
         draw(made / f"{name}.svg")
     with contextlib.chdir(docs):
         for page in sorted(docs.glob("**/*.md")):
-            for command in drawing_commands(page.read_text(encoding="utf-8")):
+            text = page.read_text(encoding="utf-8")
+            for command in drawing_commands(text):
                 run(command)
+            for command, picture in stacking_commands(text):
+                draw_stacked(command, picture)
+
+
+def shell_commands(text: str) -> list[str]:
+    """Return all commands of a page."""
+    blocks = [block for block in code_blocks(text) if block.language in ("sh", "console")]
+    return [line for block in blocks for line in commands(block)]
 
 
 def drawing_commands(text: str) -> list[str]:
     """Return the commands of a page that draw a picture which the page shows."""
-    blocks = [block for block in code_blocks(text) if block.language in ("sh", "console")]
-    return [line for block in blocks for line in commands(block) if f"({shlex.split(line)[-1]})" in text]
+    return [line for line in shell_commands(text) if f"({shlex.split(line)[-1]})" in text]
+
+
+def stacking_commands(text: str) -> list[tuple[str, str]]:
+    """Return the commands of a page whose picture it shows stacked as well, for a phone, and the path of that."""
+    found = [(line, f"made/{Path(shlex.split(line)[-1]).stem}_stacked.svg") for line in shell_commands(text)]
+    return [(command, picture) for command, picture in found if f"({picture})" in text]
+
+
+def draw_stacked(command: str, picture: str) -> None:
+    """Draw the picture of ``pendular bridge ... --plot`` with the pair above its curve."""
+    words = shlex.split(command)[2:]
+    options = {name[2:].replace("-", "_"): value for name, value in zip(words[::2], words[1::2], strict=True)}
+    del options["plot"]
+    gap = read("separation", options.pop("separation"), "m", "1um")
+    question = read_question(**options)
+    state, end = question.put_to(bridge, gap), question.put_to(rupture)
+    save(question.draw(end, state, gap, stacked=True), Path(picture))
 
 
 def run(command: str) -> None:

@@ -1,4 +1,7 @@
-"""Pictures of the theory pages, drawn from exact bridges of equal spheres with R = γ = 1."""
+"""Pictures of the theory pages, drawn from exact bridges of equal spheres with R = γ = 1.
+
+They are as wide as their labels can still be read on a phone.
+"""
 
 from pathlib import Path
 
@@ -30,9 +33,9 @@ def draw_sketch(path: Path) -> None:
     angle = np.deg2rad(30)
     bridge = pl.bridge(pl.Pair(1.0, angle), GAP, suction=0.3, liquid=UNIT)
     shape = bridge.profile(401)
-    drawing = Figure(figsize=(7.2, 3.9), layout="constrained")
+    drawing = Figure(figsize=(5.2, 3.4), layout="constrained")
     axes = drawing.subplots()
-    axes.set(aspect="equal", xlim=(-1.25, 1.5), ylim=(-0.42, 1.05))
+    axes.set(aspect="equal", xlim=(-1.1, 0.98), ylim=(-0.36, 1.0))
     axes.axis("off")
     axes.fill_between(shape.x, -shape.y, shape.y, color=LIQUID, lw=0)
     for solid in (0, 1):
@@ -62,7 +65,7 @@ def _mark_left(axes: Axes, shape: pl.Profile, filling: float, angle: float) -> N
     low, high = np.rad2deg([filling, along]) - 90
     axes.add_patch(Arc(contact, 0.5, 0.5, theta1=low, theta2=high, color=ACCENT))
     middle = filling + angle / 2
-    axes.annotate(r"$\theta$", contact + 0.16 * np.array([np.sin(middle), -np.cos(middle)]), color=ACCENT, va="center")
+    axes.annotate(r"$\theta$", contact + 0.18 * np.array([np.sin(middle), -np.cos(middle)]), color=ACCENT, va="center")
 
 
 def _mark_right(axes: Axes, shape: pl.Profile, bridge: pl.Bridge) -> None:
@@ -70,20 +73,20 @@ def _mark_right(axes: Axes, shape: pl.Profile, bridge: pl.Bridge) -> None:
     arrow = {"arrowstyle": "<->", "color": INK, "shrinkA": 0, "shrinkB": 0, "lw": 1}
     neck, end, contact = GAP / 2, shape.x[-1], float(bridge.contact_radius[1])
     axes.annotate("", (neck, 0.0), (neck, float(bridge.neck_radius)), arrowprops=arrow)
-    axes.annotate("$Y_0$", (neck - 0.01, 0.07), ha="right")
+    axes.annotate("$Y_0$", (neck + 0.01, 0.04))
     axes.annotate("", (end, 0.0), (end, contact), arrowprops=arrow)
     axes.annotate("$Y_c$", (end + 0.02, contact / 2), va="center")
     axes.annotate("", (0.0, -0.12), (GAP, -0.12), arrowprops=arrow)
-    axes.annotate("$D$", (GAP / 2, -0.135), ha="center", va="top")
-    axes.annotate("", (0.7, -0.2), (1.05, -0.2), arrowprops={"arrowstyle": "->", "color": ACCENT, "lw": 2})
-    axes.annotate("$F$", (1.08, -0.2), color=ACCENT, va="center")
-    axes.annotate("suction\n" r"$\Delta p = p_{gas} - p_{liquid}$", (neck, 0.92), ha="center", color=FAINT)
+    axes.annotate("$D$", (GAP / 2, -0.15), ha="center", va="top")
+    axes.annotate("", (0.52, -0.2), (0.84, -0.2), arrowprops={"arrowstyle": "->", "color": ACCENT, "lw": 2})
+    axes.annotate("$F$", (0.87, -0.2), color=ACCENT, va="center")
+    axes.annotate("suction\n" r"$\Delta p = p_{gas} - p_{liquid}$", (neck, 0.86), ha="center", color=FAINT)
 
 
 def draw_one_unknown(path: Path) -> None:
     """Draw the separation against the force that is assumed, at three suctions."""
     with rc_context(STYLE):
-        drawing = Figure(figsize=(7.2, 3.9), layout="constrained")
+        drawing = Figure(figsize=(5.2, 3.6), layout="constrained")
         axes = drawing.subplots()
     axes.axhline(0.0, color=INK, lw=0.8)
     for suction, width in ((1.0, 2.4), (10.0, 1.8), (100.0, 1.3)):
@@ -96,21 +99,21 @@ def draw_one_unknown(path: Path) -> None:
         spot = (force[fold], curve.separation[fold])
         axes.annotate(f"$H^* = {suction:g}$", spot, (6, 5), textcoords="offset points", color=INK)
     axes.annotate("thick bridges:\nstable", (0.66, 0.1), color=FAINT, size=9)
-    axes.annotate("thin bridges:\nunstable", (0.01, 0.22), color=FAINT, size=9)
+    axes.annotate("thin bridges: unstable", (0.015, 0.278), color=FAINT, size=9)
     axes.set(xlabel=r"force assumed, $\lambda^* = F/2\pi\gamma\bar R$", ylabel=r"gap that follows, $D^* = D/\bar R$")
-    axes.set(xlim=(0, 1), ylim=(-0.01, 0.28))
+    axes.set(xlim=(0, 1), ylim=(-0.01, 0.295))
     drawing.savefig(path)
 
 
 def draw_energies(path: Path) -> None:
     """Draw the potential of each control against the separation, along both branches."""
     with rc_context(STYLE):
-        drawing = Figure(figsize=(8.6, 3.8), layout="constrained")
-        left, right = drawing.subplots(1, 2)
+        drawing = Figure(figsize=(5.2, 6.4), layout="constrained")
+        upper, lower = drawing.subplots(2, 1)
     pair = pl.Pair(1.0, 0.0)
     suction = pl.curve(pair, suction=10.0, liquid=UNIT, points=801)
     volume = pl.curve(pair, volume=0.01, liquid=UNIT, points=801)
-    for axes, curve, value in ((left, suction, suction.grand_potential), (right, volume, volume.surface_energy)):
+    for axes, curve, value in ((upper, suction, suction.grand_potential), (lower, volume, volume.surface_energy)):
         on = curve.stable
         axes.axhline(0.0, color=INK, lw=0.8)
         axes.plot(curve.separation[on], value[on], color=LIQUID_EDGE, lw=2.2, label="stable")
@@ -118,16 +121,16 @@ def draw_energies(path: Path) -> None:
         fold = np.argmax(curve.separation)
         axes.plot(curve.separation[fold], value[fold], "o", color=ACCENT, ms=6)
         axes.set(xlabel=r"separation $D^*$")
-    left.set(title=r"suction held, $H^* = 10$: grand potential $\Omega^*$")
-    right.set(title=r"volume held, $V^* = 0.01$: surface energy $E^*$")
-    left.legend()
+    upper.set(title=r"suction held, $H^* = 10$: grand potential $\Omega^*$")
+    lower.set(title=r"volume held, $V^* = 0.01$: surface energy $E^*$")
+    upper.legend()
     drawing.savefig(path)
 
 
 def draw_rupture(path: Path) -> None:
     """Draw the error of the asymptotic rupture distance, term by term, and of the torus."""
     with rc_context(STYLE):
-        drawing = Figure(figsize=(7.2, 3.9), layout="constrained")
+        drawing = Figure(figsize=(5.2, 3.6), layout="constrained")
         axes = drawing.subplots()
     suction = np.geomspace(1.0, 1e6, 121)
     pair = pl.Pair(1.0, 0.0)

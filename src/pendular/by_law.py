@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from .exact.middle import CURVATURE
 from .laws import Law, force_star, laws, rupture_star
-from .laws.ranges import first_outside
+from .laws.ranges import Outside, first_outside
 from .problem import Problem, control_name, control_star, derjaguin_radius, partial_bridge, solve
 from .result import Bridge
 
@@ -23,7 +23,17 @@ Bools = NDArray[np.bool_]
 
 
 class RangeWarning(UserWarning):
-    """A law is asked outside the range that its authors state, or in which it was measured."""
+    """A law is asked outside the range that its authors state, or in which it was measured.
+
+    Attributes
+    ----------
+    outside : Outside
+        The first variable that leaves its range, its value, and the two ends of the range.
+    """
+
+    def __init__(self, message: str, outside: Outside) -> None:
+        super().__init__(message)
+        self.outside = outside
 
 
 def bridge_by_law(problem: Problem, name: str) -> Bridge:
@@ -111,9 +121,8 @@ def _warn_outside(law: Law, variables: dict[str, Floats]) -> None:
     """Warn once, naming the first variable that leaves the range of the law."""
     outside = first_outside(law.valid, variables)
     if outside is not None:
-        warnings.warn(
+        told = (
             f"{law.name}: {outside.name} {outside.value:.6g} is outside the range {outside.low:.6g} to "
-            f"{outside.high:.6g} of the law; {law.valid_text}",
-            RangeWarning,
-            stacklevel=4,
+            f"{outside.high:.6g} of the law; {law.valid_text}"
         )
+        warnings.warn(RangeWarning(told, outside), stacklevel=4)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +24,20 @@ FORMATS = (".svg", ".png", ".pdf")
 Floats = NDArray[np.float64]
 Point = tuple[float, float]
 
-_SIZE = (9.6, 4.1)  # in
+
+class _Layout(NamedTuple):
+    """Where things stand in a picture, in parts of it."""
+
+    size: Point  # in
+    pair: Point  # lower left corner
+    pair_height: float
+    curve: tuple[float, float, float, float]  # lower left corner, width and height
+    words: Point  # height of title and subtitle
+    title_size: float  # pt
+
+
+_BESIDE = _Layout((9.6, 4.1), (0.02, 0.04), 0.8, (0.56, 0.14, 0.42, 0.7), (0.95, 0.89), 12.0)
+_STACKED = _Layout((5.0, 7.5), (0.03, 0.454), 0.468, (0.115, 0.075, 0.855, 0.35), (0.975, 0.945), 10.5)
 
 # Where a label may stand beside its point, the best first, and how it is aligned there.
 _PLACES = ((1, 0), (1, 1), (-1, 1), (1, -1), (-1, -1), (-1, 0))
@@ -41,6 +54,7 @@ def figure(
     instability: Bridge | None = None,
     title: str = "",
     subtitle: str = "",
+    stacked: bool = False,
 ) -> Figure:
     """Draw a pair with its bridge, to scale, beside the force curve.
 
@@ -60,6 +74,8 @@ def figure(
         The state at which the stable branch ends, where that comes before the fold.
     title, subtitle : str
         Two lines above the picture.
+    stacked : bool
+        Whether the pair stands above the curve, as fits a phone or one column of a journal.
 
     Returns
     -------
@@ -78,18 +94,18 @@ def figure(
     """
     from matplotlib.figure import Figure
 
-    drawing = Figure(figsize=_SIZE, facecolor="white")
-    width, height = _SIZE
-    tall = 0.8
-    left = drawing.add_axes((0.02, 0.04, tall * ASPECT * height / width, tall))
-    right = drawing.add_axes((0.56, 0.14, 0.42, tall - 0.1))
-    drawing.text(0.02, 0.95, title, size=12, weight="bold", color=INK, va="center")
-    drawing.text(0.02, 0.89, subtitle, size=9, color=FAINT, va="center")
+    layout = _STACKED if stacked else _BESIDE
+    width, height = layout.size
+    drawing = Figure(figsize=layout.size, facecolor="white")
+    of_pair = drawing.add_axes((*layout.pair, layout.pair_height * ASPECT * height / width, layout.pair_height))
+    of_curve = drawing.add_axes(layout.curve)
+    drawing.text(layout.pair[0], layout.words[0], title, size=layout.title_size, weight="bold", color=INK, va="center")
+    drawing.text(layout.pair[0], layout.words[1], subtitle, size=9, color=FAINT, va="center")
     if bridge is not None:
-        draw_pair(left, pair, bridge, separation)
+        draw_pair(of_pair, pair, bridge, separation)
     else:
-        draw_pair(left, pair, rupture, float(rupture.separation) if rupture.exists else 0.0)
-    draw_curve(right, curve, rupture, bridge, separation=separation, instability=instability)
+        draw_pair(of_pair, pair, rupture, float(rupture.separation) if rupture.exists else 0.0)
+    draw_curve(of_curve, curve, rupture, bridge, separation=separation, instability=instability)
     return drawing
 
 

@@ -54,7 +54,9 @@ class Question(NamedTuple):
         # Where nothing comes first both are the same point, found along two ways.
         return first if first.separation < end.separation * (1.0 - 1e-9) else None
 
-    def draw(self, end: "Bridge", state: "Bridge | None" = None, separation: float = 0.0) -> "Figure":
+    def draw(
+        self, end: "Bridge", state: "Bridge | None" = None, separation: float = 0.0, *, stacked: bool = False
+    ) -> "Figure":
         """Picture of the pair and its force curve, with the state if there is one, else as the pair ruptures."""
         from .bridges import curve
         from .plot import figure
@@ -68,6 +70,7 @@ class Question(NamedTuple):
             instability=self.instability(end),
             title=self.title,
             subtitle=self.subtitle,
+            stacked=stacked,
         )
 
 

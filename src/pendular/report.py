@@ -176,12 +176,13 @@ def state_rows(bridge: Bridge, more: Mapping[str, tuple[str, str]]) -> list[Row]
 
 
 def rupture_table(bridge: Bridge, more: Mapping[str, tuple[str, str]]) -> Table:
-    """Table of a bridge at its fold, as `state_table`; its stiffness is beyond all numbers there."""
+    """Table of a bridge at its fold, as `state_table`, with the distance first; the stiffness is beyond all numbers."""
     if not bridge.exists:
         return _table_of_rows(_rows(_WITHOUT_BRIDGE, bridge, {}))
-    distance = {"rupture distance": (show(float(bridge.separation), "m"), "separation at which the bridge breaks")}
+    distance = ("rupture distance", show(float(bridge.separation), "m"), "separation at which the bridge breaks")
     names = [name for name in _BUT_SEPARATION if name != "stiffness"]
-    return _table_of_rows(_rows(names, bridge, {**distance, **more}))
+    extra = [(name, words, meaning) for name, (words, meaning) in more.items()]
+    return _table_of_rows([distance, *extra, *_rows(names, bridge, {})])
 
 
 def _rows(names: Iterable[str], bridge: Bridge, more: Mapping[str, tuple[str, str]]) -> list[Row]:

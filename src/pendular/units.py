@@ -37,7 +37,7 @@ def read(name: str, text: str, unit: str, example: str) -> float:
     name : str
         What it is, for the messages.
     text : str
-        A number and a unit, with or without a space.
+        A number and a unit, with or without a space; zero needs no unit, but for a temperature.
     unit : str
         The SI unit in which it is wanted.
     example : str
@@ -57,6 +57,8 @@ def read(name: str, text: str, unit: str, example: str) -> float:
     --------
     >>> read("radius", "50um", "m", "50um"), read("temperature", "25 degC", "K", "25degC")
     (5e-05, 298.15)
+    >>> read("separation", "0", "m", "1um")
+    0.0
     >>> read("radius", "50", "m", "50um")
     Traceback (most recent call last):
         ...
@@ -64,6 +66,8 @@ def read(name: str, text: str, unit: str, example: str) -> float:
     """
     number, own_unit = _split(name, text, example)
     if not own_unit:
+        if number == 0.0 and unit != "K":  # the same in all units, but for temperatures
+            return 0.0
         raise ValueError(f"{name}: {text!r} has no unit; write it like {example}")
     return _convert(name, text, number, own_unit, unit, example)
 

@@ -28,13 +28,13 @@ Floats = NDArray[np.float64]
 _COLOURS = ("#332288", "#cc6677", "#117733", "#aa4499", "#2a9d8a", "#c46a12", "#3f8fc4")
 _DASHES: tuple[Any, ...] = ("-", (0, (6, 1.6)), (0, (5, 1.5, 1.2, 1.5)), (0, (1.4, 1.2)))
 
-_SIZE = (9.6, 7.2)  # in
-_LEFT, _WIDTH = 0.08, 0.6
+_SIZE = (6.2, 7.4)  # in, the widest whose labels can be read on a phone
+_LEFT, _WIDTH = 0.115, 0.46
 _UPPER, _LOWER = (0.56, 0.33), (0.1, 0.4)  # bottom and height of the two panels
 _WIDEST = 1.1  # of the axis of separation, over the rupture distance
 _LINEAR = 0.5  # per cent, about up to which the axis of errors is linear
 _NEAREST = 0.95  # of the rupture distance; there a relative error begins to grow beyond all bounds
-_LIST, _COLUMN = (1.06, 1.13), 1.5  # beside a panel: where samples of the lines begin and end, where numbers end
+_LIST, _COLUMN = (1.06, 1.16), 1.9  # beside a panel: where samples of the lines begin and end, where numbers end
 _STEP = 0.078, 0.064  # between the rows of the two lists, over the height of their panels
 
 
@@ -259,8 +259,8 @@ def map_figure(found: ErrorMap) -> Figure:
     from matplotlib.colors import BoundaryNorm, ListedColormap
     from matplotlib.figure import Figure
 
-    drawing = Figure(figsize=(7.4, 4.6), facecolor="white")
-    axes = drawing.add_axes((0.1, 0.13, 0.7, 0.69))
+    drawing = Figure(figsize=(5.6, 4.2), facecolor="white")
+    axes = drawing.add_axes((0.1, 0.14, 0.7, 0.67))
     drawing.text(0.02, 0.95, found.law, size=12, weight="bold", color=INK, va="center")
     told = f"error of the {found.in_words}, two equal spheres"
     drawing.text(0.02, 0.89, told, size=9, color=FAINT, va="center")
@@ -278,7 +278,7 @@ def map_figure(found: ErrorMap) -> Figure:
     axes.tick_params(labelcolor=FAINT, labelsize=9, width=0.8, length=3, color=HAIR)
     axes.spines[:].set(color=HAIR, lw=0.8)
     _outline_range(axes, found)
-    bar = drawing.colorbar(filled, cax=drawing.add_axes((0.83, 0.13, 0.022, 0.69)), ticks=levels)
+    bar = drawing.colorbar(filled, cax=drawing.add_axes((0.83, 0.14, 0.026, 0.67)), ticks=levels)
     bar.ax.set_yticklabels([f"{level:+g} %".replace("-", "\N{MINUS SIGN}") for level in levels])
     bar.ax.tick_params(labelcolor=FAINT, labelsize=8.5, color=HAIR)
     bar.outline.set_edgecolor(HAIR)
@@ -313,4 +313,5 @@ def _outline_range(axes: Axes, found: ErrorMap) -> None:
         if mask.any():
             signs.append((Rectangle((0, 0), 1, 1, facecolor=colour), meaning))
     key: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (-0.01, 1.0), "frameon": False, "ncols": 3}
+    key |= {"columnspacing": 1.0, "handlelength": 1.6, "handletextpad": 0.5}
     axes.legend(*zip(*signs, strict=True), fontsize=8, labelcolor=FAINT, borderaxespad=0.3, **key)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ..bridges import Bridge, ConvergenceWarning, bridge, curve, rupture
 from ..by_law import RangeWarning
+from ..comparison.words import limit_words, variable_words
 from ..laws import Law, laws
 from ..liquid import KelvinWarning
 from ..question import Question
@@ -77,6 +78,7 @@ def _ask_law(law: Law, view: View, asked: Question, state: Bridge, end: Bridge) 
         if "rupture" in law.gives and is_own:
             last = float(asked.put_to(rupture, method=law.name).separation)
             rupture_error = _relative(last, end.separation) if end.exists else math.nan
+        outside = _outside(caught)  # the state; its curve may well leave the range
         if "force" in law.gives and law.name in view.laws:
             reach = last if last > 0.0 else float(end.separation) * (_BEYOND if is_own else 1.0)
             if math.isfinite(reach):
@@ -84,9 +86,17 @@ def _ask_law(law: Law, view: View, asked: Question, state: Bridge, end: Bridge) 
                 separation = reach * np.sin(np.linspace(0.0, 0.5 * math.pi, _LAW_POINTS if is_own else _OTHER_POINTS))
                 drawn = asked.put_to(bridge, separation, method=law.name)
                 force = np.where(drawn.exists, drawn.force, np.nan)
-    outside = next((str(warning.message) for warning in caught if issubclass(warning.category, RangeWarning)), "")
-    outside = outside.partition(";")[0].removeprefix(f"{law.name}: ").removesuffix(" of the law")
     return LawAnswer(law, force_error, rupture_error, outside, separation, force)
+
+
+def _outside(caught: list[warnings.WarningMessage]) -> str:
+    """What leaves the range of a law by the warnings it gave, in words."""
+    for warning in caught:
+        if isinstance(warning.message, RangeWarning):
+            name, value, low, high = warning.message.outside
+            limits = limit_words(name, low, high).replace(">=", "≥")
+            return f"{variable_words(name, value)}; the law is for {limits}"
+    return ""
 
 
 def _relative(value: Any, exact: Any) -> float:

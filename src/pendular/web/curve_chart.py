@@ -48,6 +48,9 @@ def curve_chart(answer: Answer, places: dict[str, int]) -> dict[str, Any]:
     low, high = _range(name, values)
     if name == "force" and not answer.state.exists:
         low, high = min(low, 0.0), max(high, 0.0)
+    if answer.state.exists and answer.separation < 0.0:  # before the curve begins
+        here = float(getattr(answer.state, name))
+        low, high = min(low, here), max(high, here)
     scale = scale_of(max(abs(low), abs(high)), UNITS[name])
     lines = _branches(answer.curve, values, gap, scale)
     if name == "force":
@@ -164,6 +167,7 @@ def _note(x: float, y: float, text: str, colour: str) -> dict[str, Any]:
         "text": text,
         "showarrow": False,
         "font": {"color": colour, "size": 12},
+        "bgcolor": "rgba(255,255,255,0.75)",  # where the line of a law passes
         "align": "left",
         "xanchor": "left",
         "yanchor": "bottom",

@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from html import escape
 
+from ..comparison.words import percent
 from ..report import state_rows
 from ..units import show
 from .answer import Answer, LawAnswer
@@ -46,7 +47,7 @@ def numbers(answer: Answer) -> str:
         distance = show(float(answer.rupture.separation), "m")
         more["rupture distance"] = (distance, "separation at which the bridge breaks")
     rows = "".join(
-        f'<tr><th scope="row">{name}<span class="meaning">{meaning}</span></th><td>{_printed(value)}</td></tr>'
+        f'<tr><th scope="row">{name}<span class="meaning">{meaning}</span></th><td>{_parts(value)}</td></tr>'
         for name, value, meaning in state_rows(answer.state, more)
     )
     return f"<tbody>{rows}</tbody>"
@@ -55,18 +56,17 @@ def numbers(answer: Answer) -> str:
 def error_cells(answer: LawAnswer) -> str:
     """Errors of a law in force and rupture distance, and whether it is asked outside its range."""
     cells = "".join(
-        f'<span class="error">{_percent(error)}</span>' for error in (answer.force_error, answer.rupture_error)
+        f'<span class="error">{percent(error).removesuffix(" %")}</span>'
+        for error in (answer.force_error, answer.rupture_error)
     )
     if not answer.outside:
         return cells
-    return f'{cells}<span class="outside">{escape(answer.outside)}</span>'
+    return f'{cells}<span class="outside">{escape(_printed(answer.outside))}</span>'
 
 
-def _percent(error: float) -> str:
-    """Relative error in per cent."""
-    if error != error:  # NaN: there is nothing to compare
-        return "–"
-    return _printed(f"{100.0 * error:+.2g}") if abs(error) >= 5e-7 else "0"
+def _parts(value: str) -> str:
+    """Quantities of one row, none of them parted from its unit at the end of a line."""
+    return ", ".join(f"<span>{_printed(part)}</span>" for part in value.split(", "))
 
 
 def _printed(number: str) -> str:

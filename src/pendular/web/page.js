@@ -38,7 +38,14 @@ function slideTo(thumbs) {
 
 // Puts the text of an element on the clipboard, and says so on the button.
 async function copyText(id, button) {
-  await navigator.clipboard.writeText(document.getElementById(id).textContent);
+  const element = document.getElementById(id);
+  if (navigator.clipboard) {
+    await navigator.clipboard.writeText(element.textContent);
+  } else {
+    // Browsers lend the clipboard only to pages of the same machine, or over https.
+    getSelection().selectAllChildren(element);
+    document.execCommand("copy");
+  }
   const label = button.querySelector(".block");
   const before = label.textContent;
   label.textContent = "Copied";

@@ -25,6 +25,10 @@ _ADDRESS_INTERVAL = 0.5  # s; browsers refuse more than a few changes of the add
 _PLACES = {name: place for place, name in enumerate(laws)}
 _BY_NAME, _GIVEN = "by name", "surface tension"
 _LIQUIDS = ["water", "ethanol", "glycerol", "ethylene glycol", "isopropanol", "acetone", "toluene", "mercury"]
+_SYMBOLS = (
+    "H* = Δp R̄/γ is the reduced suction, V* = V/R̄³ the reduced volume, D* = D/R̄ the reduced separation, "
+    "R̄ = 2R₁R₂/(R₁ + R₂), θ the contact angle."
+)
 
 
 class Explorer:
@@ -119,6 +123,7 @@ class Explorer:
                 for law in laws.values():
                     if law.control == held:
                         self._lay_out_law(law.name)
+            ui.html(_SYMBOLS, sanitize=False, tag="p").classes("symbols")
 
     def _lay_out_law(self, name: str) -> None:
         law = laws[name]

@@ -99,7 +99,7 @@ def _distance(scene: Scene) -> str:
 
 
 def _gap(scene: Scene) -> str:
-    return f"D = {show(scene.gap, 'm', 4)}"
+    return f"D = {show(scene.gap, 'm', 4)}".replace("-", "\N{MINUS SIGN}")
 
 
 def _bar(window: Window) -> str:

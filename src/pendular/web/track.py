@@ -57,7 +57,7 @@ class Track(NamedTuple):
         return part * self.steps
 
 
-_RADIUS = Track(1e-7, 1e-2, 500, "logarithmic")
+_RADIUS = Track(1e-8, 1e-2, 600, "logarithmic")
 _ANGLE = Track(0.0, 170.0, 170)
 _FIXED = {
     "radius": _RADIUS,
