@@ -125,6 +125,15 @@ def spline(table: pl.Table, suction: float) -> tuple[Callable[..., np.ndarray], 
     return force, "60 x 24 x 8"
 
 
+def random_contacts(
+    random: np.random.Generator, table: pl.Table, suction: float, count: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Separations and the two radii of random contacts."""
+    radius1, radius2 = (random.uniform(0.5, 1.5, count) * MEAN_RADIUS for _ in range(2))
+    rupture = table.rupture_distance(suction, MEAN_RADIUS, MEAN_RADIUS, GAMMA)
+    return random.uniform(0.0, 1.1, count) * rupture, radius1, radius2
+
+
 def packing(random: np.random.Generator) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Pairs, centres and radii of spheres that stand shaken on a cubic lattice, so that a part of the pairs touch."""
     radii = random.uniform(0.9, 1.1, SIDE**3) * MEAN_RADIUS
@@ -161,7 +170,6 @@ def measure() -> str:
     """The page."""
     random = np.random.default_rng(SEED)
     suction = REDUCED_SUCTION * GAMMA / MEAN_RADIUS
-    radius1, radius2 = (random.uniform(0.5, 1.5, COUNT) * MEAN_RADIUS for _ in range(2))
     begin = time.perf_counter()
     table = pl.tabulate(CONTACT_ANGLE)
     build = time.perf_counter() - begin
@@ -169,7 +177,7 @@ def measure() -> str:
     table = pl.tabulate(CONTACT_ANGLE)
     build = min(build, time.perf_counter() - begin)
     rupture = table.rupture_distance(suction, MEAN_RADIUS, MEAN_RADIUS, GAMMA)
-    separation = random.uniform(0.0, 1.1, COUNT) * rupture
+    separation, radius1, radius2 = random_contacts(random, table, suction, COUNT)
     out, truth = np.empty(COUNT), np.empty(COUNT)
     volume = float(table.volume(0.0, suction, MEAN_RADIUS, MEAN_RADIUS, GAMMA))
     few = 100_000

@@ -16,7 +16,17 @@ from numba import cuda
 from numpy.typing import NDArray
 
 import pendular as pl
-from benchmarks.contacts import CONTACT_ANGLE, COUNT, FIT, GAMMA, MEAN_RADIUS, REDUCED_SUCTION, SEED, paper_range
+from benchmarks.contacts import (
+    CONTACT_ANGLE,
+    COUNT,
+    FIT,
+    GAMMA,
+    MEAN_RADIUS,
+    REDUCED_SUCTION,
+    SEED,
+    paper_range,
+    random_contacts,
+)
 from pendular.table.cuda import to_device
 
 Floats = NDArray[np.float64]
@@ -41,10 +51,7 @@ class Contacts(NamedTuple):
 
 def draw(table: pl.Table, count: int) -> Contacts:
     """The contacts of ``benchmarks.contacts``."""
-    random = np.random.default_rng(SEED)
-    radius1, radius2 = (random.uniform(0.5, 1.5, count) * MEAN_RADIUS for _ in range(2))
-    rupture = table.rupture_distance(SUCTION, MEAN_RADIUS, MEAN_RADIUS, GAMMA)
-    separation = random.uniform(0.0, 1.1, count) * rupture
+    separation, radius1, radius2 = random_contacts(np.random.default_rng(SEED), table, SUCTION, count)
     pair = pl.Pair((radius1[:COMPARED], radius2[:COMPARED]), CONTACT_ANGLE)
     exact, at_contact = (
         pl.bridge(pair, gap, suction=SUCTION, liquid=pl.Liquid(surface_tension=GAMMA)).force

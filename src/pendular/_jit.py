@@ -31,15 +31,15 @@ def _folders_of(file: Path) -> tuple[str, ...]:
     if file.parent == _HOME / "exact":
         return ("exact",)
     shared = ("exact", "laws", "table")
-    return shared if file.parent.name in shared else (*shared, str(file.parent))
+    return shared if file.parent.name in shared else (*shared, "", str(file.parent))
 
 
 def kernel(function: Callable[..., Any]) -> Any:
     """Compile a kernel, free of the interpreter's lock, and outdate its cached code when a kernel it may use changes.
 
     Numba looks only at the file of the function itself, and would go on using machine code that contains the
-    former version of a kernel from another file. The exact solver uses no other folder; all else may use all, and the
-    files beside its own.
+    former version of a kernel from another file. The exact solver uses no other folder; all else may use all, and what
+    is outside of these also the files of the package itself and those beside its own.
     """
     dispatcher = njit(cache=True, error_model="numpy", nogil=True)(function)
     cache_file = getattr(getattr(dispatcher, "_cache", None), "_cache_file", None)  # absent with the compiler off

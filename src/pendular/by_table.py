@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._check import plain
-from .problem import Problem, control_name, derjaguin_radius, partial_bridge
+from .problem import Problem, control_name, control_si, derjaguin_radius, partial_bridge
 from .result import Bridge
 from .table import Table, tabulate
 
@@ -45,9 +45,8 @@ def rupture_by_table(problem: Problem) -> Bridge:
 
 def _tables(problem: Problem) -> list[tuple[NDArray[np.bool_], Table, tuple[Floats, Floats, Floats, Floats]]]:
     """Rows of each pair of contact angles, its table, and control, radii and surface tension of these rows."""
-    control, k1, angle1, k2, angle2 = problem.rows[:, 1:].T
-    name, length = control_name(problem), problem.length
-    held = control * length**3 if name == "volume" else control * problem.surface_tension / length
+    k1, angle1, k2, angle2 = problem.rows[:, 2:].T
+    name, length, held = control_name(problem), problem.length, control_si(problem)
     with np.errstate(divide="ignore"):
         radius1, radius2 = length / k1, length / k2
     found = []

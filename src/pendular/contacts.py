@@ -115,7 +115,8 @@ def _match(pairs: Integers, former_pairs: Integers) -> tuple[Integers, Integers]
 
 
 @kernel
-def _distance(positions: Floats, first: int, second: int) -> float:
+def distance_of(positions: Floats, first: int, second: int) -> float:
+    """Between two centres."""
     x = positions[second, 0] - positions[first, 0]
     y = positions[second, 1] - positions[first, 1]
     z = positions[second, 2] - positions[first, 2]
@@ -129,7 +130,7 @@ def _separation_range(
     """Gaps from start to stop, NaN where two centres coincide and no direction joins them."""
     for contact in range(start, stop):
         first, second = pairs[contact, 0], pairs[contact, 1]
-        distance = _distance(positions, first, second)
+        distance = distance_of(positions, first, second)
         separation[contact] = distance - (radii[first] + radii[second]) if distance > 0.0 else math.nan
 
 
@@ -139,7 +140,7 @@ def _add_up(pairs: Integers, positions: Floats, attraction: Floats, force: Float
     total = np.zeros((3, 3))
     for bridge in range(pairs.shape[0]):
         first, second = pairs[bridge, 0], pairs[bridge, 1]
-        pull = attraction[bridge] / _distance(positions, first, second)
+        pull = attraction[bridge] / distance_of(positions, first, second)
         for k in range(3):
             arm = positions[second, k] - positions[first, k]
             force[first, k] += pull * arm

@@ -222,15 +222,21 @@ def control_star(problem: Problem) -> Floats:
     return held / scale**3 if control_name(problem) == "volume" else held * scale
 
 
+def control_si(problem: Problem) -> Floats:
+    """Volume, [m³], or suction, [Pa], one a row."""
+    held: Floats = problem.rows[:, 1]
+    if control_name(problem) == "volume":
+        return held * problem.length**3
+    return problem.surface_tension * held / problem.length
+
+
 def partial_bridge(problem: Problem, separation: Floats, force_star: Any, exists: Bools) -> Bridge:
     """Bridge in SI units with the few fields that a law or a table knows: force and separation at one control."""
     shape, gamma = problem.shape, problem.surface_tension
-    name, controlled = control_name(problem), problem.rows[:, 1]
-    control = controlled * problem.length**3 if name == "volume" else gamma * controlled / problem.length
     known = exists & ~np.isnan(np.asarray(separation))
     fields: dict[str, Any] = {
         "separation": np.where(known, separation, np.nan),
-        name: np.where(known, control, np.nan),
+        control_name(problem): np.where(known, control_si(problem), np.nan),
         "force": 2.0 * np.pi * gamma * derjaguin_radius(problem) * np.asarray(force_star),
         "exists": known,
         "stable": known,

@@ -40,17 +40,23 @@ def separation_at(q: float, rupture: float, stretch: float) -> float:
 
 
 @kernel
+def weight_of(q: Vector, j: int, first: int, stop: int, i: int) -> float:
+    """Lagrange's weight at q[i] of bridge j among those from first to stop; number -1 is the fold, at q = 0."""
+    weight, place = 1.0, q[j] if j >= 0 else 0.0
+    for k in range(first, stop):
+        if k != j:
+            other = q[k] if k >= 0 else 0.0
+            weight *= (q[i] - other) / (place - other)
+    return weight
+
+
+@kernel
 def _arc_foretold(q: Vector, i: int, top: float, arcs: Vector) -> float:
     """Wetted arc at q[i], ascending, by the polynomial through those of up to three bridges before it."""
-    first = max(i - 3, -1)  # -1 is the fold, at q = 0
+    first = max(i - 3, -1)
     foretold = 0.0
     for j in range(first, i):
-        weight, place = 1.0, q[j] if j >= 0 else 0.0
-        for k in range(first, i):
-            if k != j:
-                other = q[k] if k >= 0 else 0.0
-                weight *= (q[i] - other) / (place - other)
-        foretold += weight * (arcs[j] if j >= 0 else top)
+        foretold += weight_of(q, j, first, i, i) * (arcs[j] if j >= 0 else top)
     return foretold
 
 
@@ -95,12 +101,8 @@ def suction_fractions(curvature: float, solids: Solids, q: Vector, values: Rows)
 def _foretold(q: Vector, i: int, passed: Vectors, separation: float, curve: Curve) -> tuple[Vector, bool]:
     """Bridge at q[i] by Newton's method from what the three bridges above it foretell, and whether that went well."""
     guess = np.zeros(4)
-    for j in range(i + 1, i + 4):  # Lagrange
-        weight = 1.0
-        for k in range(i + 1, i + 4):
-            if k != j:
-                weight *= (q[i] - q[k]) / (q[j] - q[k])
-        guess += weight * passed[j]
+    for j in range(i + 1, i + 4):
+        guess += weight_of(q, j, i + 1, i + 4, i) * passed[j]
     z = guess.copy()
     effort = correct(z, curve.solids, curve.held, curve.value, SEPARATION, separation, z)
     moved = np.max(np.abs(guess - passed[i + 1]))

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from .._jit import kernel
 from .equilibrium import Solids, are_equal
-from .fractions import note_branch, separation_at, stretch_of, suction_fractions, walk_branch
+from .fractions import note_branch, separation_at, stretch_of, suction_fractions, walk_branch, weight_of
 from .middle import CURVATURE, SEPARATION, VOLUME, Measure, Vector, Vectors, measure, solve4, unit_of
 from .path import FOLD, PITCHFORK, Curve, Heading, antisymmetric_margin, heading_at
 
@@ -131,15 +131,10 @@ def _settle(z: Vector, curve: Curve, separation: float) -> float:
 @kernel
 def _foretold_change(q: Vector, i: int, at_fold: Vector, changes: Vectors) -> Vector:
     """Change of the bridge at q[i], ascending, by the polynomial through the changes of up to three before it."""
-    first = max(i - 3, -1)  # -1 is the fold, at q = 0
+    first = max(i - 3, -1)
     foretold = np.zeros(4)
     for j in range(first, i):
-        weight, place = 1.0, q[j] if j >= 0 else 0.0
-        for k in range(first, i):
-            if k != j:
-                other = q[k] if k >= 0 else 0.0
-                weight *= (q[i] - other) / (place - other)
-        foretold += weight * (changes[j] if j >= 0 else at_fold)
+        foretold += weight_of(q, j, first, i, i) * (changes[j] if j >= 0 else at_fold)
     return foretold
 
 

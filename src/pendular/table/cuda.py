@@ -19,7 +19,7 @@ from .._check import numbers, result_array
 from .._jit import element, kernel
 from . import kernels
 from .kernels import Grid
-from .table import UNITS, Table
+from .table import Table, operands_of
 
 __all__ = ["DeviceTable", "to_device"]
 
@@ -161,11 +161,10 @@ class DeviceTable:
         return self._ask(_rupture_distance, out, 0.0, control, radius1, radius2, surface_tension)
 
     def _ask(self, scalar: Callable[..., float], out: Any, *arguments: Operand) -> Any:
-        names = ("separation", self.control, "radius1", "radius2", "surface_tension")
-        units = ("m", UNITS[self.control], "m", "m", "N/m")
-        read = [_read(name, value, unit) for name, value, unit in zip(names, arguments, units, strict=True)]
+        units = operands_of(self.control)
+        read = [_read(name, value, units[name]) for name, value in zip(units, arguments, strict=True)]
         shape = np.broadcast_shapes(*(operand.shape for operand in read))
-        operands = [_flat(name, operand, shape) for name, operand in zip(names, read, strict=True)]
+        operands = [_flat(name, operand, shape) for name, operand in zip(units, read, strict=True)]
         if _is_on_device(out):
             result = _on_device("out", out)
             if result.shape != shape:

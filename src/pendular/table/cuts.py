@@ -92,6 +92,13 @@ def to_powers(count: int) -> Floats:
     return np.asarray(np.linalg.inv(np.vander(chebyshev(count), increasing=True)), np.float64)
 
 
+@cache
+def to_chebyshev(count: int) -> Floats:
+    """Matrix from values at the interpolation points to coefficients of Chebyshev polynomials."""
+    points = np.polynomial.chebyshev.chebvander(chebyshev(count), count - 1)
+    return np.asarray(np.linalg.inv(points), np.float64)
+
+
 def truncated(values: Floats) -> Floats:
     """Values at the interpolation points of the last two axes without the products of high Chebyshev polynomials.
 
@@ -100,7 +107,7 @@ def truncated(values: Floats) -> Floats:
     """
     terms_x, terms_y = values.shape[-2:]
     to_x, to_y = (np.polynomial.chebyshev.chebvander(chebyshev(terms), terms - 1) for terms in (terms_x, terms_y))
-    coefficients = np.linalg.inv(to_x) @ values @ np.linalg.inv(to_y).T
+    coefficients = to_chebyshev(terms_x) @ values @ to_chebyshev(terms_y).T
     coefficients[..., np.add.outer(np.arange(terms_x), np.arange(terms_y)) >= terms_y] = 0.0
     kept: Floats = to_x @ coefficients @ to_y.T
     return kept

@@ -144,6 +144,14 @@ def cell_of(grid: Grid, place: Place, q: float) -> tuple[int, float]:
 
 
 @kernel
+def ends_of(grid: Grid, row: int, cell: int) -> tuple[float, float]:
+    """Where a cell begins and ends, in w of q."""
+    cut = grid.cuts[row]
+    q_cell = (cell - cut[CELLS]) % cut[Q_COUNT]
+    return edge(q_cell, cut[Q_SHIFT], cut[Q_FIRST]), edge(q_cell + 1, cut[Q_SHIFT], cut[Q_FIRST])
+
+
+@kernel
 def if_bridged(value: float, separation: float, rupture: float, beyond: float) -> float:
     """A value before rupture, another one beyond, NaN if one of the two lengths is NaN."""
     other = beyond if separation >= rupture else math.nan
@@ -221,10 +229,8 @@ def stiffness(
         return 0.0
     q = q_of(separation, rupture)
     cell, t = cell_of(grid, place, q)
-    cut = grid.cuts[place.row]
-    q_cell = (cell - cut[CELLS]) % cut[Q_COUNT]
-    width = edge(q_cell + 1, cut[Q_SHIFT], cut[Q_FIRST]) - edge(q_cell, cut[Q_SHIFT], cut[Q_FIRST])
-    t_rate = 2.0 / width * grid.lines[place.row, Q1] * (-0.5 / (q * rupture))
+    low, high = ends_of(grid, place.row, cell)
+    t_rate = 2.0 / (high - low) * grid.lines[place.row, Q1] * (-0.5 / (q * rupture))
     rate = rate_in_three(grid.force, cell * CELL, place.x, place.y, t) * t_rate
     return 2.0 * math.pi * surface_tension * pair.radius * rate
 
@@ -239,8 +245,8 @@ def _integral(grid: Grid, place: Place, end: float) -> float:
     total, low = 0.0, 0.0
     for i in range(abs(last - at_rupture) + 1):
         cell = at_rupture + step * i
-        q_cell = (cell - cut[CELLS]) % cut[Q_COUNT]
-        far = edge(q_cell + (1 if step > 0 else 0), cut[Q_SHIFT], cut[Q_FIRST])
+        ends = ends_of(grid, place.row, cell)
+        far = ends[1] if step > 0 else ends[0]
         high = end if cell == last else (far - line[Q0]) / line[Q1]
         half = 0.5 * (high - low)
         for j in range(len(_ABSCISSAE)):

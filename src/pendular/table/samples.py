@@ -16,7 +16,7 @@ from ..exact.equilibrium import Solids
 from ..exact.fractions import fractions_range, stretch_of
 from ..exact.middle import CURVATURE, VOLUME
 from ..exact.neighbours import BLOCK, blocks_range
-from .cuts import chebyshev
+from .cuts import chebyshev, to_chebyshev
 from .task import Task
 
 Floats = NDArray[np.float64]
@@ -79,9 +79,7 @@ def _neighbouring_curves(task: Task, control: Floats, size: Floats, side: int, q
 
 def _to_series(values: Floats, axis: int) -> Floats:
     """Chebyshev coefficients from values at the interpolation points along an axis."""
-    terms = values.shape[axis]
-    matrix = np.linalg.inv(np.polynomial.chebyshev.chebvander(chebyshev(terms), terms - 1))
-    return np.moveaxis(np.tensordot(matrix, values, (1, axis)), 0, axis)
+    return np.moveaxis(np.tensordot(to_chebyshev(values.shape[axis]), values, (1, axis)), 0, axis)
 
 
 def _terms(task: Task, numbers: tuple[int, int]) -> int:

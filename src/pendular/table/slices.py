@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._jit import kernel
-from .kernels import CELLS, Q0, Q1, Q_COUNT, Q_FIRST, Q_SHIFT, Grid, Place, cell_of, edge
+from .kernels import Q0, Q1, Grid, Place, cell_of, ends_of
 from .polynomial import CELL, CONTROL_TERMS, LANES, LEAST_SIZE_TERMS
 
 Floats = NDArray[np.float64]
@@ -14,10 +14,9 @@ Floats = NDArray[np.float64]
 def slice_at(grid: Grid, place: Place, q: float, out: Floats) -> tuple[float, float]:
     """Coefficients of λ/R̄ in t, lowest power first, of the cell at q, and a and b of t = a + b q in it."""
     cell, _ = cell_of(grid, place, q)
-    cut, line = grid.cuts[place.row], grid.lines[place.row]
-    q_cell = (cell - cut[CELLS]) % cut[Q_COUNT]
-    low = edge(q_cell, cut[Q_SHIFT], cut[Q_FIRST])
-    scale = 2.0 / (edge(q_cell + 1, cut[Q_SHIFT], cut[Q_FIRST]) - low)
+    line = grid.lines[place.row]
+    low, high = ends_of(grid, place.row, cell)
+    scale = 2.0 / (high - low)
     row = cell * CELL
     of_y = np.empty(LANES)
     for k in range(LANES):

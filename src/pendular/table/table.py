@@ -33,7 +33,12 @@ _SHARES = {"suction": (0.25, 0.1), "volume": (0.35, 0.15)}
 _HOPELESS, _GAIN = 30.0, 0.5  # an error over the tolerance that finer cells do not mend; what they have to gain
 _TOLERANCES = {"suction": 1e-8, "volume": 1e-7}
 _ARRAYS = ("lines", "cuts", "rupture", "force", "liquid")
-UNITS = {"suction": "Pa", "volume": "m**3"}
+_UNITS = {"suction": "Pa", "volume": "m**3"}
+
+
+def operands_of(control: Literal["suction", "volume"]) -> dict[str, str]:
+    """Names of what a table is asked with, in their order, each with its unit."""
+    return {"separation": "m", control: _UNITS[control], "radius1": "m", "radius2": "m", "surface_tension": "N/m"}
 
 
 class ToleranceWarning(UserWarning):
@@ -226,9 +231,8 @@ class Table:
         save(Path(path), description, {name: getattr(self.grid, name) for name in _ARRAYS})
 
     def _ask(self, asked: int, out: Floats | None, *arguments: ArrayLike) -> Floats:
-        names = ("separation", self.control, "radius1", "radius2", "surface_tension")
-        units = ("m", UNITS[self.control], "m", "m", "N/m")
-        read = [numbers(name, value, unit) for name, value, unit in zip(names, arguments, units, strict=True)]
+        named = zip(operands_of(self.control).items(), arguments, strict=True)
+        read = [numbers(name, value, unit) for (name, unit), value in named]
         shape = np.broadcast_shapes(*(array.shape for array in read))
         result = result_array(out, shape)
         # One array type for every call, hence one compilation; an operand of one element is not repeated.

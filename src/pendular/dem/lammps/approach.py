@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..._jit import kernel
-from .forces import Bridges, distance_of
+from ...contacts import distance_of
+from .forces import Bridges
 from .neighbours import MIRROR, Candidates
 
 __all__ = ["Approach"]

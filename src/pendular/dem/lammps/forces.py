@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..._jit import kernel
+from ...contacts import distance_of
 from ...table import Grid, kernels
 from ...table.slices import slice_at
 from .neighbours import MIRROR, Candidates
@@ -23,7 +24,6 @@ __all__ = [
     "Liquid",
     "add_forces",
     "add_others",
-    "distance_of",
     "end",
     "energies",
     "enlarged",
@@ -207,13 +207,6 @@ def add_forces(
             force[target, 1] -= dy
             force[target, 2] -= dz
     return breaks, others
-
-
-@kernel
-def distance_of(x: Floats, i: int, j: int) -> float:
-    """Between two centres."""
-    dx, dy, dz = x[j, 0] - x[i, 0], x[j, 1] - x[i, 1], x[j, 2] - x[i, 2]
-    return math.sqrt(dx * dx + dy * dy + dz * dz)
 
 
 @kernel
