@@ -14,7 +14,10 @@ import numpy as np
 from numba import get_num_threads, njit
 from numpy.typing import NDArray
 
-__all__ = ["element", "in_chunks", "kernel"]
+__all__ = ["element", "in_chunks", "kernel", "summing_kernel"]
+
+# Sums may be added up in any order, several at once; NaN, infinity and every other rule of arithmetic stay.
+_ANY_ORDER = {"reassoc", "contract"}
 
 _HOME = Path(__file__).parent
 
@@ -30,7 +33,7 @@ def _folders_of(file: Path) -> tuple[str, ...]:
     """Folders whose kernels one in this file may use."""
     if file.parent == _HOME / "exact":
         return ("exact",)
-    shared = ("exact", "laws", "table")
+    shared = ("exact", "solids", "laws", "table")
     return shared if file.parent.name in shared else (*shared, "", str(file.parent))
 
 
@@ -41,7 +44,16 @@ def kernel(function: Callable[..., Any]) -> Any:
     former version of a kernel from another file. The exact solver uses no other folder; all else may use all, and what
     is outside of these also the files of the package itself and those beside its own.
     """
-    dispatcher = njit(cache=True, error_model="numpy", nogil=True)(function)
+    return _compiled(function, False)
+
+
+def summing_kernel(function: Callable[..., Any]) -> Any:
+    """Compile a kernel whose loop adds up many terms, in the lanes of the processor."""
+    return _compiled(function, _ANY_ORDER)
+
+
+def _compiled(function: Callable[..., Any], fastmath: bool | set[str]) -> Any:
+    dispatcher = njit(cache=True, error_model="numpy", nogil=True, fastmath=fastmath)(function)
     cache_file = getattr(getattr(dispatcher, "_cache", None), "_cache_file", None)  # absent with the compiler off
     if cache_file is not None:
         cache_file._source_stamp = _stamp_of(*_folders_of(Path(function.__code__.co_filename)))

@@ -10,12 +10,10 @@ from ._check import in_range, one_of, plain, quantity
 from .by_dataset import bridge_by_dataset, rupture_by_dataset
 from .by_law import bridge_by_law, rupture_by_law
 from .by_table import bridge_by_table, rupture_by_table
-from .exact import tracing
-from .exact.equilibrium import Solids, State
 from .laws import laws
 from .liquid import HUMIDITY_UNCERTAINTY, Liquid, humidity_from_suction, suction_from_humidity, warn_kelvin
 from .pair import Pair
-from .problem import Asked, Control, ConvergenceWarning, control_of, reduce, restore, solve
+from .problem import Asked, Control, ConvergenceWarning, Limit, control_of, reduce, solve, trace
 from .result import FIELDS, Bridge, Profile
 
 __all__ = ["FIELDS", "Bridge", "ConvergenceWarning", "Pair", "Profile", "bridge", "curve", "rupture"]
@@ -36,6 +34,7 @@ def bridge(
     humidity: ArrayLike | None = None,
     liquid: Liquid,
     branch: Literal["stable", "unstable"] = "stable",
+    limit: Limit = "stability",
     method: str = "exact",
 ) -> Bridge:
     r"""Capillary bridge between two solids at a separation, exactly.
@@ -103,12 +102,13 @@ def bridge(
     1.5087e-05 N, 1.3015e-15 m3, stable: True
     """
     one_of("branch", branch, ("stable", "unstable"))
+    one_of("limit", limit, ("stability", "fold"))
     control = control_of(suction, volume, humidity, liquid)
     problem = reduce(pair, control, liquid, separation)
     if _is_approximate(method):
         one_of("branch", branch, ("stable",))
         return _BRIDGES[method](problem) if method in _BRIDGES else bridge_by_law(problem, method)
-    answer = _echo(solve(problem, branch), separation=problem.separation)
+    answer = _echo(solve(problem, branch, limit), separation=problem.separation)
     if humidity is not None:
         _judge_humidity(pair, separation, control, liquid, branch, answer)
     return answer
@@ -121,7 +121,8 @@ def rupture(
     volume: ArrayLike | None = None,
     humidity: ArrayLike | None = None,
     liquid: Liquid,
-    limit: Literal["fold", "stability"] = "fold",
+    end: Literal["upper", "lower"] = "upper",
+    limit: Limit = "stability",
     method: str = "exact",
 ) -> Bridge:
     r"""Bridge at the end of its stable branch; its separation is the rupture distance.
@@ -174,15 +175,17 @@ def rupture(
     >>> print(f"{fold.separation / 50e-6:.6f} {first.separation / 50e-6:.6f}")
     0.135844 0.133586
     """
-    one_of("limit", limit, ("fold", "stability"))
+    one_of("end", end, ("upper", "lower"))
+    one_of("limit", limit, ("stability", "fold"))
     control = control_of(suction, volume, humidity, liquid)
     if humidity is not None:
         warn_kelvin(liquid.surface_tension / control.value, 0.0, stacklevel=2)
     problem = reduce(pair, control, liquid, 0.0)
     if _is_approximate(method):
-        one_of("limit", limit, ("stability",) if (method, control.name) == ("table", "volume") else ("fold",))
+        one_of("end", end, ("upper",))
+        one_of("limit", limit, ("stability",))
         return _RUPTURES[method](problem) if method in _RUPTURES else rupture_by_law(problem, method)
-    return solve(problem, limit)
+    return solve(problem, end, limit)
 
 
 def curve(
@@ -193,15 +196,18 @@ def curve(
     humidity: ArrayLike | None = None,
     liquid: Liquid,
     points: int = 201,
+    limit: Limit = "stability",
 ) -> Bridge:
-    """Bridges from contact to the fold and down the unstable branch, at one control.
+    """Bridges from contact, or the lower end, to rupture and down the unstable branch, at one control.
 
     Parameters
     ----------
     pair, suction, volume, humidity, liquid
         As for :func:`bridge`.
     points : int
-        States on the curve, at least 5; the fold is the one with index ``points // 2``.
+        States on the curve, at least 5; rupture is the one with index ``points // 2``.
+    limit : {"stability", "fold"}
+        As for :func:`rupture`.
 
     Returns
     -------
@@ -219,20 +225,13 @@ def curve(
     >>> int(np.argmax(c.separation)), bool(c.stable[0]), bool(c.stable[-1])
     (100, True, False)
     """
+    one_of("limit", limit, ("stability", "fold"))
     count = int(in_range("points", quantity("points", points, ""), 5.0))
     control = control_of(suction, volume, humidity, liquid)
     if humidity is not None:
         warn_kelvin(liquid.surface_tension / control.value, 0.0, stacklevel=2)
     problem = reduce(pair, control, liquid, 0.0)
-    states = np.empty((len(problem.rows), count, len(State._fields)))
-    statuses = np.empty(states.shape[:2], np.int8)
-    for i, row in enumerate(problem.rows):
-        solids = Solids(*row[2:])
-        if problem.is_path[i]:
-            statuses[i] = tracing.path_curve(problem.held, row[1], solids, states[i])
-        else:
-            statuses[i] = tracing.suction_curve(row[1], solids, states[i])
-    return restore(problem, states, statuses, (count,))
+    return trace(problem, count, limit)
 
 
 def _is_approximate(method: str) -> bool:

@@ -12,7 +12,7 @@ import warnings
 import numpy as np
 from numpy.typing import NDArray
 
-from .exact.middle import CURVATURE
+from .exact.equations import SUCTION
 from .laws import Law, force_star, laws, rupture_star
 from .laws.ranges import Outside, first_outside
 from .problem import Problem, control_name, control_star, derjaguin_radius, partial_bridge, solve
@@ -103,7 +103,7 @@ def _suction_star(problem: Problem, exact: Bridge) -> Floats:
     is_suction = reduced > 0.0
     rows = problem.rows.copy()
     rows[:, 1] = np.where(is_suction, reduced, 1.0)
-    drained = solve(problem._replace(rows=rows, held=CURVATURE, is_path=np.zeros(len(rows), bool)), "stable")
+    drained = solve(problem._replace(rows=rows, held=SUCTION), "stable")
     is_same = is_suction & np.isclose(np.ravel(drained.force), np.ravel(exact.force), rtol=1e-6, atol=0.0)
     suction: Floats = np.where(is_same | ~is_suction, reduced, np.nan) * derjaguin_radius(problem) / problem.length
     return suction

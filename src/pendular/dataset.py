@@ -16,8 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._check import angle, in_range, quantity, scalar
-from .exact.equilibrium import Solids
-from .exact.grid import GridPoint, fill_grid
+from .dataset_grid import GridPoint, Solids, fill_grid
 
 if TYPE_CHECKING:
     import xarray as xr

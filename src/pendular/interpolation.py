@@ -7,10 +7,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._check import angle, broadcast, in_range, one_of, quantity
 from .dataset import PAIR_DIMS, curvatures, solids_of
-from .exact.arrays import AT_FOLD, STABLE, path_range, suction_range
-from .exact.equilibrium import State
-from .exact.grid import Sheet, interpolate_range, longest_rises
-from .exact.middle import VOLUME
+from .dataset_grid import Sheet, interpolate_range, longest_rises
+from .exact.batch import RUPTURE, STABLE, bridge_range
+from .exact.equations import SUCTION, VOLUME
+from .exact.follow import FOLDS
+from .exact.state import State
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -251,7 +252,7 @@ def _errors(
     """Largest and median error of the force, largest one of the rupture distance, share of bridges inside."""
     low, high = (0.0, 6.0) if control == "suction" else (-12.0, -2.0)
     values = 10.0 ** generator.uniform(low, high, samples)
-    exact_ruptures = _exact("separation", AT_FOLD, control, np.zeros(samples), values, pair)
+    exact_ruptures = _exact("separation", RUPTURE, control, np.zeros(samples), values, pair)
     gaps = exact_ruptures * generator.uniform(0.0, 0.99, samples)
     exact_forces = _exact("force", STABLE, control, gaps, values, pair)
     forces = interpolate(dataset, control, values, gaps, *pair, order=order)
@@ -267,8 +268,6 @@ def _exact(field: str, asked: int, control: Control, gaps: Floats, values: Float
     """One field of the exact solution."""
     questions = np.column_stack([gaps, values, np.tile(solids_of(*pair), (gaps.size, 1))])
     states, statuses = np.empty((gaps.size, len(State._fields))), np.empty(gaps.size, np.int8)
-    if control == "volume":
-        path_range(asked, VOLUME, questions, states, statuses, 0, gaps.size)
-    else:
-        suction_range(asked, questions, states, statuses, 0, gaps.size)
+    held = VOLUME if control == "volume" else SUCTION
+    bridge_range(asked, FOLDS, held, questions, states, statuses, 0, gaps.size)
     return states[:, State._fields.index(field)]

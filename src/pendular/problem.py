@@ -11,30 +11,31 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._check import broadcast, in_range, plain, quantity
 from ._jit import in_chunks
-from .exact import arrays
-from .exact.energy import grand_potential, surface_energy
-from .exact.equilibrium import State
-from .exact.middle import CURVATURE, VOLUME
-from .exact.states import FAILED, FOUND
+from .exact import batch
+from .exact.batch import FAILED, FOUND, NO_BRIDGE
+from .exact.equations import SUCTION, VOLUME
+from .exact.follow import BRANCH_ENDS, FOLDS
+from .exact.state import State
 from .liquid import Liquid, suction_from_humidity
 from .pair import Pair
 from .result import FIELDS, Bridge
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
-Asked = Literal["stable", "unstable", "fold", "stability"]
+Asked = Literal["stable", "unstable", "upper", "lower"]
+Limit = Literal["stability", "fold"]
 
-# Bridges that one thread takes at a time: some milliseconds, against which the start of a thread is nothing.
-_SUCTION_CHUNK, _PATH_CHUNK = 4096, 16
+_CHUNK = 1024  # bridges that one thread takes at a time: some milliseconds, against which its start is nothing
 _PER_SOLID = ("contact_radius", "half_filling_angle", "wetted_area", "capillary_tensor")
 _DEEPEST_OVERLAP = 0.5  # over the smaller radius
 
-_CODES: dict[Asked, int] = {
-    "stable": arrays.STABLE,
-    "unstable": arrays.UNSTABLE,
-    "fold": arrays.AT_FOLD,
-    "stability": arrays.AT_INSTABILITY,
+_ASKED: dict[Asked, int] = {
+    "stable": batch.STABLE,
+    "unstable": batch.UNSTABLE,
+    "upper": batch.RUPTURE,
+    "lower": batch.LOWER_END,
 }
+_LIMITS: dict[Limit, int] = {"stability": BRANCH_ENDS, "fold": FOLDS}
 
 
 class ConvergenceWarning(RuntimeWarning):
@@ -53,7 +54,6 @@ class Problem(NamedTuple):
 
     rows: Floats
     held: int
-    is_path: Bools  # not answered by the one equation of suction control
     separation: Floats  # as asked
     length: Floats  # unit of length, one a row
     surface_tension: float
@@ -91,14 +91,11 @@ def reduce(pair: Pair, control: Control, liquid: Liquid, separation: ArrayLike) 
     length = np.minimum(radius1, radius2)
     _refuse_deep_overlap(arrays[0], length.reshape(arrays[0].shape))
     if control.name == "volume":
-        _refuse_engulfing(value, gap, (radius1, radius2), (angle1, angle2))
         held, reduced = VOLUME, value / length**3
-        is_path = np.ones(value.shape, bool)
     else:
-        held, reduced = CURVATURE, value * length / liquid.surface_tension
-        is_path = reduced < 0.0
+        held, reduced = SUCTION, value * length / liquid.surface_tension
     rows = np.column_stack([gap / length, reduced, length / radius1, angle1, length / radius2, angle2])
-    return Problem(rows, held, is_path, arrays[0], length, liquid.surface_tension, arrays[0].shape)
+    return Problem(rows, held, arrays[0], length, liquid.surface_tension, arrays[0].shape)
 
 
 def _refuse_deep_overlap(separation: Floats, smaller_radius: Floats) -> None:
@@ -113,44 +110,23 @@ def _refuse_deep_overlap(separation: Floats, smaller_radius: Floats) -> None:
         )
 
 
-def _refuse_engulfing(volume: Floats, gap: Floats, radii: tuple[Floats, Floats], angles: tuple[Floats, Floats]) -> None:
-    """Refuse a volume that encloses the solids: a drop through their far poles, less the spheres."""
-    radius1, radius2 = radii
-    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-        drop = radius1 + radius2 + 0.5 * gap
-        between_spheres = 4.0 / 3.0 * np.pi * (drop**3 - radius1**3 - radius2**3)
-        sphere = np.minimum(radius1, radius2)
-        theta = np.where(np.isinf(radius1), angles[0], angles[1])
-        height = 2.0 * sphere + gap  # of a cap on the plane that just covers the sphere
-        cap = np.pi * height**3 * (1.0 / (1.0 - np.cos(theta)) - 1.0 / 3.0)
-        on_plane = cap - 4.0 / 3.0 * np.pi * sphere**3
-    largest = np.where(np.isinf(np.maximum(radius1, radius2)), on_plane, between_spheres)
-    too_much = np.flatnonzero(volume >= largest)
-    if too_much.size:
-        i = too_much[0]
-        raise ValueError(
-            f"volume: {volume[i]:.6g} m^3 is not in (0, {largest[i]:.6g}): a drop of that size encloses the solids"
-        )
-
-
-def solve(problem: Problem, asked: Asked) -> Bridge:
-    """Answer all rows, each by the solver that suits it."""
-    code = _CODES[asked]
+def solve(problem: Problem, asked: Asked, limit: Limit = "stability") -> Bridge:
+    """Answer all rows."""
     count = len(problem.rows)
-    states = np.empty((count, len(State._fields)))
-    statuses = np.empty(count, np.int8)
-    for is_path in (False, True):
-        chosen = problem.is_path == is_path
-        rows = np.ascontiguousarray(problem.rows[chosen])
-        if not len(rows):
-            continue
-        found, status = np.empty((len(rows), states.shape[1])), np.empty(len(rows), np.int8)
-        if is_path:
-            in_chunks(arrays.path_range, len(rows), _PATH_CHUNK, code, problem.held, rows, found, status)
-        else:
-            in_chunks(arrays.suction_range, len(rows), _SUCTION_CHUNK, code, rows, found, status)
-        states[chosen], statuses[chosen] = found, status
+    states, statuses = np.empty((count, len(State._fields))), np.empty(count, np.int8)
+    question = (_ASKED[asked], _LIMITS[limit], problem.held, problem.rows)
+    in_chunks(batch.bridge_range, count, _CHUNK, *question, states, statuses)
     return restore(problem, states, statuses, ())
+
+
+def trace(problem: Problem, points: int, limit: Limit) -> Bridge:
+    """Answer all rows with whole curves, of so many points each."""
+    count = len(problem.rows)
+    states, statuses = np.empty((count, points, len(State._fields))), np.empty(count, np.int8)
+    in_chunks(batch.curve_range, count, 1, _LIMITS[limit], problem.held, problem.rows, states, statuses)
+    each = np.repeat(statuses[:, None], points, axis=1)
+    each[(each == FOUND) & np.isnan(states[..., 0])] = NO_BRIDGE
+    return restore(problem, states, each, (points,))
 
 
 def restore(problem: Problem, states: Floats, statuses: NDArray[np.int8], extra: tuple[int, ...]) -> Bridge:
@@ -173,7 +149,7 @@ def restore(problem: Problem, states: Floats, statuses: NDArray[np.int8], extra:
         return np.stack([first, second], axis=-1)
 
     wetted = pair_of(state["wetted_area1"], state["wetted_area2"])
-    energy = surface_energy(state["area"], wetted, theta)
+    energy = state["area"] - np.sum(np.cos(theta) * wetted, axis=-1)  # zero for dry and separate solids
     force = np.where(exists, 2.0 * np.pi * gamma * unit * state["force"], 0.0)
     force[has_failed] = np.nan
     values: dict[str, Any] = {
@@ -182,12 +158,14 @@ def restore(problem: Problem, states: Floats, statuses: NDArray[np.int8], extra:
         "volume": state["volume"] * unit**3,
         "force": force,
         "exists": exists,
-        "stable": state["stable"] == 1.0,
+        "stable": (state["unstable_directions"] == 0.0) & (state["sideways_stable"] == 1.0),
+        "unstable_directions": np.where(exists, state["unstable_directions"], 0.0).astype(int),
+        "sideways_stable": state["sideways_stable"] == 1.0,
         "neck_radius": state["neck_radius"] * unit,
         "neck_inside": state["neck_inside"] == 1.0,
         "liquid_gas_area": state["area"] * unit**2,
         "surface_energy": gamma * energy * unit**2,
-        "grand_potential": gamma * grand_potential(energy, state["curvature"], state["volume"]) * unit**2,
+        "grand_potential": gamma * (energy + state["curvature"] * state["volume"]) * unit**2,
         "stiffness": 2.0 * np.pi * gamma * state["stiffness"],
     }
     return Bridge(

@@ -7,10 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._check import in_range, quantity
-from .exact.meridian import Middle, lay_meridian
+from .exact.algebra import Four
+from .exact.meridian import lay_meridian
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
+Ints = NDArray[np.int_]
 
 
 class Profile(NamedTuple):
@@ -39,7 +41,9 @@ class Bridge:
     volume: float | Floats = _of("m^3", "liquid volume")
     force: float | Floats = _of("N", "capillary force, attraction positive")
     exists: bool | Bools = _of("", "a bridge exists at this separation and control")
-    stable: bool | Bools = _of("", "stable under the given control")
+    stable: bool | Bools = _of("", "stable under the given control, sideways too")
+    unstable_directions: int | Ints = _of("", "axisymmetric directions in which the energy falls")
+    sideways_stable: bool | Bools = _of("", "the liquid does not slip to one side")
     neck_radius: float | Floats = _of("m", "smallest radius of the surface")
     neck_inside: bool | Bools = _of("", "the neck lies between the solids")
     contact_radius: Floats = _of("m", "radius of the contact circle")
@@ -82,7 +86,8 @@ class Bridge:
         x, y = np.full((2, meridian.shape[0], count), np.nan)
         for i, (radius, slope, half_length) in enumerate(meridian):
             if np.isfinite(radius):
-                lay_meridian(Middle(radius / half_length, slope, curvature[i] * half_length, half_length), x[i], y[i])
+                z = Four(np.log(radius), slope, np.log(half_length), curvature[i] * half_length)
+                lay_meridian(z, x[i], y[i])
         x, y = x.reshape(*shape, count), y.reshape(*shape, count)
         with np.errstate(invalid="ignore"):
             sagitta = 2.0 * self._solid_radius * np.sin(0.5 * self.half_filling_angle) ** 2

@@ -1,1 +1,1 @@
-"""The Young-Laplace equation, solved exactly for axisymmetric bridges between two solids."""
+"""The exact solver: a bridge is four numbers and four equations, for numbers only."""

@@ -1,11 +1,15 @@
-"""An arc of a surface of constant mean curvature: length, volume, area. Knows no solids.
+r"""The meridian of a bridge: an arc of constant mean curvature, given by four numbers about its middle.
 
-The meridian obeys X' = cos φ, Y' = sin φ, φ' = H + cos φ/Y over its arc length; Y cos φ + H Y²/2 = λ along it
-(the first integral). Two ways to measure an arc are given:
+With s the arc length from the middle, Y the radius, φ the slope angle against the axis and
+:math:`\zeta = Y e^{i\varphi}`, the Young–Laplace equation has the solution (Kenmotsu's form)
 
-- :func:`arc_from_neck`, closed, in Carlson's integrals, from the neck to a given point: one force, one suction;
-- :func:`arc_across`, by quadrature, about any point of the meridian: every surface there is (nodoid, catenoid,
-  unduloid, cylinder, sphere) with smooth derivatives, so that Newton's method can walk through all of them.
+.. math:: 1 + H\zeta(s) = (1 + H\zeta_m)\,e^{iHs}, \qquad \zeta(s) = \zeta_m e^{i\omega f} + \ell f\,
+          \frac{e^{i\omega f} - 1}{\omega f}, \quad f = s/\ell, \; \omega = H\ell .
+
+The four numbers are :math:`(\ln Y_m, \varphi_m, \ln\ell, \omega)`; nothing in them is singular at a catenoid, a cylinder,
+a sphere, a neck, a bulge or an inflection. In the algebraic parameter :math:`v = (2/H)\tan(Hs/2)`, over its half width τ,
+the arc is a Möbius map, :math:`\zeta(v) = (\zeta_m(1 + iw) + iv)/(1 - iw)` with :math:`w = \eta v/2`, η = Hτ and
+:math:`ds = dv/(1 + w^2)`: length, volume and all their rates come from one loop of products and one square root a node.
 """
 
 import math
@@ -14,249 +18,410 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .._jit import kernel
-from .carlson import carlson_fd
+from .._jit import kernel, summing_kernel
+from .algebra import Four
+
+Nodes = NDArray[np.float64]
+
+_WIDEST_PANEL = 1.3  # half turn ω of a panel: wider arcs are cut, where tan(ω/2) would stretch them
+_WIDEST_CUT = 2.0  # half width in the sinh variable: thin necks are cut
+_ONE_CUT = math.exp(2.0 * _WIDEST_CUT)
+_FARTHEST_POLE = 2.5  # over the half width of the panel; beyond that the substitution would do nothing
+_STRAIGHT = 1e-9  # half turn below which an arc is a catenoid
+_SMALL_TURN = 0.1  # below which the slope of sin(x)/x is a series
+
+_NODES_16, _WEIGHTS_16 = np.polynomial.legendre.leggauss(16)
+_NODES_24, _WEIGHTS_24 = np.polynomial.legendre.leggauss(24)
 
 
-class NeckArc(NamedTuple):
-    """The arc from the neck to a point (Y, φ) of a surface with H ≥ 0; negative behind the neck."""
+class Turn(NamedTuple):
+    """What the turn of an arc from its middle amounts to: e^{iu/2}, sin(u/2)/(u/2) and the slope of that."""
 
-    neck_radius: float  # Y0
-    length: float  # X, along the axis
-    area: float  # A, of the surface
-    volume: float  # π ∫ Y² dX
-    length_rate: float  # ∂X/∂λ at fixed H and φ
+    rotor: complex
+    ratio: float
+    ratio_slope: float
 
 
-@kernel
-def arc_from_neck(curvature: float, radius: float, sin_slope: float, cos_slope: float) -> NeckArc:
-    r"""Arc from the neck (Y0, φ = 0) to the point (Y, φ), in closed form.
+class Place(NamedTuple):
+    """A point of the arc, ζ = Y e^{iφ}, with its rates; that in φm is i times that in ln Ym."""
 
-    .. math::
-        X = Y_0 J_0 - \tfrac12 H q J_2, \qquad A = 2\pi (Y_0^2 J_0 + q J_2), \qquad
-        \frac{V_{rot}}{\pi} = \frac{2}{3H}\Bigl[Y^2\sin\varphi + \lambda X - \frac{A}{\pi}\Bigr]
-
-    with :math:`q = \sqrt{1 + 2H\lambda}`, :math:`Y^2 = Y_0^2 + q\sigma^2`,
-    :math:`J_0 = \sigma R_F(Y_0^2, Y^2, Y_0^2c^2)` and
-    :math:`J_2 = \tfrac13 Y_0^2\sigma^3 R_D(Y^2, Y_0^2c^2, Y_0^2)`.
-
-    The volume divides by HY and loses as many digits as that has zeros; ask :func:`arc_across` below 0.1.
-    """
-    h_radius = curvature * radius
-    force = radius * (cos_slope + 0.5 * h_radius)
-    versine = sin_slope * sin_slope / (1.0 + cos_slope) if cos_slope > 0.0 else 1.0 - cos_slope
-    q = math.sqrt((1.0 + h_radius) * (1.0 + h_radius) - 2.0 * h_radius * versine)
-    neck = 2.0 * force / (1.0 + q)  # never (q - 1)/H
-
-    cos_phase = 1.0 + h_radius * cos_slope  # q cos Hs
-    sin_phase = h_radius * sin_slope  # q sin Hs
-    # c = cos(Hs/2), from the larger of the two forms of its square
-    square = 0.5 * (q + cos_phase) / q if cos_phase > 0.0 else 0.5 * sin_phase * sin_phase / (q * (q - cos_phase))
-    c = math.sqrt(square)
-    sigma = radius * sin_slope / (q * c)  # (2/H) sin(Hs/2)
-
-    rf, rd = carlson_fd(radius * radius, neck * neck * square, neck * neck)
-    j0 = sigma * rf
-    j2 = sigma * sigma * sigma * neck * neck * rd / 3.0
-    length = neck * j0 - 0.5 * curvature * q * j2
-    area = 2.0 * math.pi * (neck * neck * j0 + q * j2)
-    volume = (
-        math.pi * (2.0 / 3.0) * (radius * radius * sin_slope + force * length - area / math.pi) / curvature
-        if curvature != 0.0
-        else 0.5 * force * area
-    )
-
-    # ∫ cos²φ/r³ dφ with r = cos φ + HY = q b/Y, reduced to J0 and J2; e2 is ∫ sin²φ/r³ dφ.
-    b = neck + 0.5 * curvature * sigma * sigma
-    e2 = (sigma * c * radius / (neck * b) - j0 + 0.5 * q * curvature * j2 / neck) / (1.0 + q)
-    length_rate = (j0 - 2.0 * curvature * force * e2) / (q * q)
-    return NeckArc(neck, length, area, volume, length_rate)
+    zeta: complex
+    by_log_radius: complex
+    by_log_length: complex
+    by_turn: complex
 
 
-class Across(NamedTuple):
-    """The arc between two ends, in units of half its arc length ℓ, with its rates of change."""
+class Row(NamedTuple):
+    """A quantity and its rates in the four numbers."""
 
-    length: float  # X/ℓ
-    volume: float  # π ∫ Y² dX / ℓ³
-    area: float  # A/ℓ²
-    tensor: float  # n11/ℓ², n11 = π ∫ Y cos²φ ds
-    length_rates: tuple[float, float, float]  # with respect to ln y, φm, ω
-    volume_rates: tuple[float, float, float]
+    value: float
+    rates: Four
+
+
+class End(NamedTuple):
+    """An end of the arc: contact circle, and slope ψ of the meridian against the axis, outwards."""
+
+    radius: float  # Y
+    cos_slope: float
+    sin_slope: float
+    growth: Four  # rates of ln Y
+    tilt: Four  # rates of ψ
+
+
+class Sums(NamedTuple):
+    """Length X and volume V/π of a panel in units of its τ, with rates in Re ζ, Im ζ and η."""
+
+    length: float
+    length_by_real: float
+    length_by_imag: float
+    length_by_eta: float
+    volume: float
+    volume_by_real: float
+    volume_by_imag: float
+    volume_by_eta: float
 
 
 @kernel
-def _turn(phase: float, t: float) -> tuple[complex, complex]:
-    """exp(iωt), and (exp(iωt) - 1)/ω without division by ω."""
-    half = 0.5 * phase * t
-    sin_half, cos_half = math.sin(half), math.cos(half)
-    ratio = sin_half / half if abs(half) > 1e-8 else 1.0
-    turned = complex(1.0 - 2.0 * sin_half * sin_half, 2.0 * sin_half * cos_half)
-    return turned, t * ratio * complex(-sin_half, cos_half)
-
-
-@kernel
-def point_on_arc(y: float, slope: float, phase: float, t: float) -> complex:
-    r"""ζ = Y exp(iφ) in units of ℓ, at the arc length t from the middle of an arc (-1 ≤ t ≤ 1).
-
-    .. math:: \zeta = y\,e^{i(\varphi_m + \omega t)} + \frac{e^{i\omega t} - 1}{\omega}
-
-    the solution of the meridian equations that has radius y = Ym/ℓ and slope φm in the middle, ω = Hℓ.
-    """
-    turned, catenary = _turn(phase, t)
-    return complex(y * math.cos(slope), y * math.sin(slope)) * turned + catenary
-
-
-@kernel
-def point_and_rates(middle: complex, phase: float, t: float) -> tuple[complex, complex, complex]:
-    """ζ for the middle y exp(iφm), ∂ζ/∂(ln y), and ∂ζ/∂ω; ∂ζ/∂φm is i ∂ζ/∂(ln y)."""
-    turned, catenary = _turn(phase, t)
-    to_y = middle * turned
-    x = phase * t
-    if abs(x) > 1e-3:
-        to_phase = (1j * t * turned - catenary) / phase
+def turn_of(angle: float) -> Turn:
+    """The turn by an angle u."""
+    half = 0.5 * angle
+    cosine, sine = math.cos(half), math.sin(half)
+    square = half * half
+    if square < _SMALL_TURN * _SMALL_TURN:
+        ratio = 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0))
+        slope = -half / 3.0 * (1.0 - square / 10.0 * (1.0 - square / 28.0 * (1.0 - square / 54.0)))
     else:
-        to_phase = t * t * complex(-0.5 + x * x / 8.0, -x / 3.0 + x * x * x / 30.0)
-    return to_y + catenary, to_y, 1j * t * to_y + to_phase
+        ratio = sine / half
+        slope = (cosine - ratio) / half
+    return Turn(complex(cosine, sine), ratio, slope)
 
 
 @kernel
-def _relative(change: complex, inverse: complex) -> tuple[float, float]:
-    """δY/Y and δφ, the real and imaginary part of δζ/ζ."""
-    ratio = change * inverse
-    return ratio.real, ratio.imag
-
-
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(24)
-_NODES, _WEIGHTS = 0.5 * (_NODES + 1.0), 0.5 * _WEIGHTS  # on [0, 1]
-
-
-@kernel
-def _stretching(y: float, slope: float, phase: float) -> tuple[float, float]:
-    """Position of the nearest neck and its stretch b = Y0/√q, with Y² ≈ Y0² (1 + (t - tn)²/b²) around it.
-
-    A thin neck makes the integrands nearly singular in t; they are smooth in τ, t = tn + b sinh τ. A stretch of
-    zero asks for no substitution: no neck near, or one so wide that t itself is good.
-    """
-    h = phase * y
-    force = y * (math.cos(slope) + 0.5 * h)
-    square = 1.0 + 2.0 * phase * force
-    cos_phase = 1.0 + h * math.cos(slope)
-    if not (force > 0.0 and square > 0.0 and cos_phase > 0.0):
-        return 0.0, 0.0
-    q = math.sqrt(square)
-    stretch = 2.0 * force / ((1.0 + q) * math.sqrt(q))
-    if stretch > 3.0:
-        return 0.0, 0.0
-    if abs(phase) < 1e-8:
-        return -y * math.sin(slope) / cos_phase, stretch
-    return -math.atan2(h * math.sin(slope), cos_phase) / phase, stretch
+def place_after(middle: complex, length: float, share: float, turn: Turn) -> Place:
+    """The point at a share f of the half length, where the arc has made the turn ωf."""
+    rotor, ratio, slope = turn
+    rotated = middle * rotor * rotor
+    run = length * share
+    step = 1j * rotor * ratio  # (e^{iu} - 1)/u
+    rate = 0.5 * rotor * complex(-ratio, slope)  # its slope
+    return Place(rotated + run * step, rotated, run * step, share * (1j * rotated + run * rate))
 
 
 @kernel
-def arc_across(y: float, slope: float, phase: float, symmetric: bool) -> Across:
-    """Arc between its two ends at -ℓ and +ℓ, from its middle: radius y = Ym/ℓ, slope φm, phase ω = Hℓ.
-
-    Gauss-Legendre on two panels, stretched about a thin neck; on one for a symmetric arc (φm = 0), twice its half.
-    Any value of the three arguments that keeps Y > 0 is a piece of some surface, and nothing here divides by
-    the suction or by the modulation of the surface: catenoid and cylinder need no case of their own.
-    """
-    neck, stretch = _stretching(y, slope, phase)
-    if stretch > 0.0:
-        low = 0.0 if symmetric else math.asinh((-1.0 - neck) / stretch)
-        high = math.asinh((1.0 - neck) / stretch)
-    else:
-        low = 0.0 if symmetric else -1.0
-        high = 1.0
-    split = 0.0 if (stretch > 0.0 and low < 0.0 < high) else 0.5 * (low + high)
-    middle = complex(y * math.cos(slope), y * math.sin(slope))
-
-    length = volume = area = tensor = 0.0
-    xy = xs = xp = vy = vs = vp = 0.0
-    for panel in range(1 if symmetric else 2):
-        start, end = (low, high) if symmetric else ((low, split) if panel == 0 else (split, high))
-        width = end - start
-        for j in range(_NODES.size):
-            tau = start + width * _NODES[j]
-            weight = width * _WEIGHTS[j]
-            if stretch > 0.0:
-                grown = math.exp(tau)
-                t = neck + 0.5 * stretch * (grown - 1.0 / grown)
-                weight *= 0.5 * stretch * (grown + 1.0 / grown)
-            else:
-                t = tau
-            zeta, to_y, to_phase = point_and_rates(middle, phase, t)
-            square = zeta.real * zeta.real + zeta.imag * zeta.imag
-            radius = math.sqrt(square)
-            over = 1.0 / radius
-            cos_slope, sin_slope = zeta.real * over, zeta.imag * over
-            inverse = complex(cos_slope * over, -sin_slope * over)  # 1/ζ
-            length += weight * cos_slope
-            area += weight * radius
-            volume += weight * square * cos_slope
-            tensor += weight * radius * cos_slope * cos_slope
-            # δ(cos φ) = -sin φ δφ,   δ(Y² cos φ) = 2 Y cos φ δY - Y² sin φ δφ
-            grow, turn = _relative(to_y, inverse)
-            xy -= weight * sin_slope * turn
-            vy += weight * square * (2.0 * cos_slope * grow - sin_slope * turn)
-            grow, turn = _relative(1j * to_y, inverse)
-            xs -= weight * sin_slope * turn
-            vs += weight * square * (2.0 * cos_slope * grow - sin_slope * turn)
-            grow, turn = _relative(to_phase, inverse)
-            xp -= weight * sin_slope * turn
-            vp += weight * square * (2.0 * cos_slope * grow - sin_slope * turn)
-
-    sides = 2.0 if symmetric else 1.0
-    pi_sides = sides * math.pi
-    return Across(
-        sides * length,
-        pi_sides * volume,
-        2.0 * pi_sides * area,
-        pi_sides * tensor,
-        (sides * xy, sides * xs, sides * xp),
-        (pi_sides * vy, pi_sides * vs, pi_sides * vp),
+def _end_at(place: Place, side: float) -> End:
+    """End of the arc on the first (side -1) or the second solid (+1)."""
+    zeta = place.zeta
+    square = zeta.real * zeta.real + zeta.imag * zeta.imag
+    radius = math.sqrt(square)
+    inverse = complex(zeta.real / square, -zeta.imag / square)
+    by_radius = place.by_log_radius * inverse
+    by_length = place.by_log_length * inverse
+    by_turn = place.by_turn * inverse
+    return End(
+        radius,
+        zeta.real / radius,
+        side * zeta.imag / radius,
+        Four(by_radius.real, -by_radius.imag, by_length.real, by_turn.real),
+        Four(side * by_radius.imag, side * by_radius.real, side * by_length.imag, side * by_turn.imag),
     )
 
 
-class Middle(NamedTuple):
-    """The middle of an arc, as :func:`arc_across` wants it, and half its arc length."""
-
-    y: float
-    slope: float
-    phase: float
-    half_length: float
+@kernel
+def middle_of(z: Four) -> complex:
+    """Radius and slope in the middle, ζm = Ym e^{iφm}."""
+    radius = math.exp(z.log_radius)
+    return complex(radius * math.cos(z.slope), radius * math.sin(z.slope))
 
 
 @kernel
-def arc_length_from_neck(curvature: float, radius: float, sin_slope: float, cos_slope: float) -> float:
-    """Arc length s from the neck to the point (Y, φ): tan(Hs/2) = HY sin φ/(q + 1 + HY cos φ)."""
-    h_radius = curvature * radius
-    q = math.sqrt(1.0 + 2.0 * curvature * radius * (cos_slope + 0.5 * h_radius))
-    tangent = radius * sin_slope / (q + 1.0 + h_radius * cos_slope)  # tan(Hs/2)/H
-    x = curvature * tangent
-    return 2.0 * tangent * (math.atan(x) / x if abs(x) > 1e-8 else 1.0)
+def ends_of(z: Four) -> tuple[End, End]:
+    """Both ends of the arc."""
+    middle, length = middle_of(z), math.exp(z.log_length)
+    forth = turn_of(z.turn)
+    back = Turn(complex(forth.rotor.real, -forth.rotor.imag), forth.ratio, -forth.ratio_slope)
+    return _end_at(place_after(middle, length, -1.0, back), -1.0), _end_at(place_after(middle, length, 1.0, forth), 1.0)
+
+
+class Cut(NamedTuple):
+    """A piece of a panel in the variable t, v = pole + spread·sinh t."""
+
+    pole: float
+    spread: float
+    middle: float  # e^t in its middle
+    half: float  # half its width in t
+
+
+class Node(NamedTuple):
+    """A point of an arc with its share of the arc length, in units of τ."""
+
+    zeta_real: float
+    zeta_imag: float
+    ds: float
+    v: float
+    w: float  # ηv/2
+    p: float  # 1/(1 + w²)
 
 
 @kernel
-def middle_between(curvature: float, neck: float, back: float, ahead: float) -> Middle:
-    """Middle of the arc from the arc length -back to +ahead of a neck of radius Y0."""
-    half_length = 0.5 * (back + ahead)
-    phase = curvature * half_length
-    zeta = point_on_arc(neck / half_length, 0.0, phase, 0.5 * (ahead - back) / half_length)
-    return Middle(abs(zeta), math.atan2(zeta.imag, zeta.real), phase, half_length)
+def node_at(real: float, imag: float, h: float, cut: Cut, x: float, weight: float) -> Node:
+    """The point at a node x in [-1, 1] of a cut, h = η/2."""
+    t = 0.0625 * cut.half * x
+    e = 1.0 + t * (
+        1.0
+        + t
+        * (
+            0.5
+            + t
+            * (1 / 6 + t * (1 / 24 + t * (1 / 120 + t * (1 / 720 + t * (1 / 5040 + t * (1 / 40320 + t / 362880))))))
+        )
+    )  # e^t by its series and four squarings: products alone, which a processor does several at a time
+    e = e * e
+    e = e * e
+    e = e * e
+    e = e * e * cut.middle
+    inverse = 1.0 / e
+    v = cut.pole + 0.5 * cut.spread * (e - inverse)
+    w = h * v
+    p = 1.0 / (1.0 + w * w)
+    nr, ni = real - v * h * imag, imag + v * (1.0 + h * real)
+    return Node(
+        (nr - ni * w) * p, (ni + nr * w) * p, 0.5 * cut.spread * cut.half * (e + inverse) * weight * p, v, w, p
+    )
+
+
+@summing_kernel
+def _sum_length(real: float, imag: float, eta: float, cut: Cut, x: Nodes, weight: Nodes) -> Sums:
+    """Length and its rates over a cut."""
+    length = by_real = by_imag = by_eta = 0.0
+    for j in range(x.size):
+        zr, zi, ds, v, w, p = node_at(real, imag, 0.5 * eta, cut, x[j], weight[j])
+        inverse = 1.0 / math.sqrt(zr * zr + zi * zi)
+        square = inverse * inverse
+        cosine, sine = ds * zr * inverse, ds * zi * inverse
+        er, ei = (1.0 - w * w) * p, 2.0 * w * p
+        fr, fi = (er * zr + ei * zi) * square, (ei * zr - er * zi) * square
+        turned = 0.5 * v * p * (2.0 * real * fr - (2.0 * imag + v) * fi)
+        length += cosine
+        by_real -= sine * fi
+        by_imag -= sine * fr
+        by_eta -= cosine * w * v * p + sine * turned
+    return Sums(length, by_real, by_imag, by_eta, 0.0, 0.0, 0.0, 0.0)
+
+
+@summing_kernel
+def _sum_both(real: float, imag: float, eta: float, cut: Cut, x: Nodes, weight: Nodes) -> Sums:
+    """Length and volume with their rates over a cut."""
+    length = by_real = by_imag = by_eta = 0.0
+    volume = v_real = v_imag = v_eta = 0.0
+    for j in range(x.size):
+        zr, zi, ds, v, w, p = node_at(real, imag, 0.5 * eta, cut, x[j], weight[j])
+        square = zr * zr + zi * zi
+        inverse = 1.0 / math.sqrt(square)
+        cosine, sine = ds * zr * inverse, ds * zi * inverse
+        er, ei = (1.0 - w * w) * p, 2.0 * w * p
+        fr, fi = (er * zr + ei * zi) * inverse * inverse, (ei * zr - er * zi) * inverse * inverse
+        grown = -0.5 * v * p * ((2.0 * imag + v) * fr + 2.0 * real * fi)
+        turned = 0.5 * v * p * (2.0 * real * fr - (2.0 * imag + v) * fi)
+        lag = w * v * p
+        disc, tilt = cosine * square, sine * square
+        length += cosine
+        by_real -= sine * fi
+        by_imag -= sine * fr
+        by_eta -= cosine * lag + sine * turned
+        volume += disc
+        v_real += 2.0 * disc * fr - tilt * fi
+        v_imag -= 2.0 * disc * fi + tilt * fr
+        v_eta += disc * (2.0 * grown - lag) - tilt * turned
+    return Sums(length, by_real, by_imag, by_eta, volume, v_real, v_imag, v_eta)
+
+
+@summing_kernel
+def _sum_areas(real: float, imag: float, eta: float, cut: Cut, x: Nodes, weight: Nodes) -> tuple[float, float]:
+    """∫Y ds and ∫Y cos²φ ds over a cut, in units of τ²."""
+    area = across = 0.0
+    for j in range(x.size):
+        zr, zi, ds, _v, _w, _p = node_at(real, imag, 0.5 * eta, cut, x[j], weight[j])
+        radius = math.sqrt(zr * zr + zi * zi)
+        area += ds * radius
+        across += ds * zr * zr / radius
+    return area, across
 
 
 @kernel
-def lay_meridian(middle: Middle, x: NDArray[np.float64], radius: NDArray[np.float64]) -> None:
-    """Axial coordinate from the first end, and radius, at points evenly spaced along an arc."""
-    last = x.size - 1
-    x[0] = 0.0
+def cuts_of(real: float, imag: float, eta: float) -> tuple[Cut, float, int]:
+    """First cut of a panel, growth of e^t from one to the next, number of cuts.
+
+    The substitution smooths the branch points of Y, at the zeros of ζ: v = iζm/(1 + ηζm/2), and its conjugate.
+    """
+    h = 0.5 * eta
+    cr, ci = 1.0 + h * real, h * imag
+    square = cr * cr + ci * ci
+    pole, spread = (real * ci - imag * cr) / square, abs(real * cr + imag * ci) / square
+    if not spread < _FARTHEST_POLE:
+        pole, spread = 0.0, _FARTHEST_POLE
+    spread = max(spread, 1e-14)
+    low, high = (-1.0 - pole) / spread, (1.0 - pole) / spread
+    # e^{asinh x} without cancellation
+    from_low = low + math.sqrt(1.0 + low * low) if low > 0.0 else 1.0 / (math.sqrt(1.0 + low * low) - low)
+    to_high = high + math.sqrt(1.0 + high * high) if high > 0.0 else 1.0 / (math.sqrt(1.0 + high * high) - high)
+    if from_low * _ONE_CUT > to_high:
+        return Cut(pole, spread, math.sqrt(from_low * to_high), 0.5 * math.log(to_high / from_low)), 1.0, 1
+    half = 0.5 * math.log(to_high / from_low)
+    cuts = 1 + int(half / _WIDEST_CUT)
+    half /= cuts
+    return Cut(pole, spread, from_low * math.exp(half), half), math.exp(2.0 * half), cuts
+
+
+@kernel
+def _add(a: Sums, b: Sums) -> Sums:
+    return Sums(a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3], a[4] + b[4], a[5] + b[5], a[6] + b[6], a[7] + b[7])
+
+
+@kernel
+def _sum_panel(real: float, imag: float, eta: float, fine: bool, with_volume: bool) -> Sums:
+    """Sums over one panel about ζ = real + i·imag, in units of its τ."""
+    x, weight = (_NODES_24, _WEIGHTS_24) if fine else (_NODES_16, _WEIGHTS_16)
+    cut, growth, cuts = cuts_of(real, imag, eta)
+    total = Sums(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    for _ in range(cuts):
+        if with_volume:
+            total = _add(total, _sum_both(real, imag, eta, cut, x, weight))
+        else:
+            total = _add(total, _sum_length(real, imag, eta, cut, x, weight))
+        cut = Cut(cut.pole, cut.spread, cut.middle * growth, cut.half)
+    return total
+
+
+@kernel
+def _plus(row: Row, value: float, rates: Four) -> Row:
+    old = row.rates
+    return Row(row.value + value, Four(old[0] + rates[0], old[1] + rates[1], old[2] + rates[2], old[3] + rates[3]))
+
+
+@kernel
+def panels_of(turn: float) -> int:
+    """Number of panels of an arc."""
+    return 1 + int(abs(turn) / _WIDEST_PANEL)
+
+
+class Panel(NamedTuple):
+    """One of the equal panels of an arc, in the algebraic parameter."""
+
+    place: Place  # of its middle
+    tau: float
+    eta: float
+    tau_rate: float  # in ω
+    eta_rate: float
+
+
+@kernel
+def panel_of(z: Four, number: int, panels: int) -> Panel:
+    """The panel with a number: τ = ℓ tan(h)/h and η = 2 tan h, with ℓ over the panels and h half the turn of one."""
+    middle, length = middle_of(z), math.exp(z.log_length)
+    turn = turn_of(z.turn / panels)
+    tangent = turn.rotor.imag / turn.rotor.real
+    tau = length / panels * turn.ratio / turn.rotor.real
+    if panels == 1:
+        place = Place(middle, middle, 0j, 0j)
+    else:
+        share = (2.0 * number + 1.0 - panels) / panels
+        place = place_after(middle, length, share, turn_of(z.turn * share))
+    return Panel(
+        place,
+        tau,
+        2.0 * tangent,
+        (tangent + turn.ratio_slope / turn.ratio) * tau * 0.5 / panels,
+        (1.0 + tangent * tangent) / panels,
+    )
+
+
+@kernel
+def measure_arc(z: Four, fine: bool, with_volume: bool) -> tuple[Row, Row]:
+    """Length X = ∫cos φ ds between the contact circles, and V/π = ∫Y² cos φ ds (zero without volume), with rates."""
+    nothing = Four(0.0, 0.0, 0.0, 0.0)
+    along, liquid = Row(0.0, nothing), Row(0.0, nothing)
+    panels = panels_of(z.turn)
+    for number in range(panels):
+        panel = panel_of(z, number, panels)
+        tau, square = panel.tau, panel.tau * panel.tau
+        real, imag = panel.place.zeta.real / tau, panel.place.zeta.imag / tau
+        s = _sum_panel(real, imag, panel.eta, fine, with_volume)
+        by_tau = s.length - s.length_by_real * real - s.length_by_imag * imag
+        rates = _chain(panel, s.length_by_real, s.length_by_imag, by_tau, tau * s.length_by_eta)
+        along = _plus(along, tau * s.length, rates)
+        if with_volume:
+            by_tau = square * (3.0 * s.volume - s.volume_by_real * real - s.volume_by_imag * imag)
+            by_real, by_imag = square * s.volume_by_real, square * s.volume_by_imag
+            rates = _chain(panel, by_real, by_imag, by_tau, square * tau * s.volume_by_eta)
+            liquid = _plus(liquid, square * tau * s.volume, rates)
+    return along, liquid
+
+
+@kernel
+def _chain(panel: Panel, by_real: float, by_imag: float, by_tau: float, by_eta: float) -> Four:
+    """Rates in the four numbers from those in the ζ, τ and η of a panel."""
+    a, b, c = panel.place.by_log_radius, panel.place.by_log_length, panel.place.by_turn
+    return Four(
+        by_real * a.real + by_imag * a.imag,
+        -by_real * a.imag + by_imag * a.real,
+        by_real * b.real + by_imag * b.imag + by_tau * panel.tau,
+        by_real * c.real + by_imag * c.imag + by_tau * panel.tau_rate + by_eta * panel.eta_rate,
+    )
+
+
+@kernel
+def areas_of(z: Four) -> tuple[float, float]:
+    """Liquid-gas area A = 2π∫Y ds, and n11 = π∫Y cos²φ ds."""
+    area = across = 0.0
+    panels = panels_of(z.turn)
+    for number in range(panels):
+        panel = panel_of(z, number, panels)
+        tau = panel.tau
+        real, imag = panel.place.zeta.real / tau, panel.place.zeta.imag / tau
+        cut, growth, cuts = cuts_of(real, imag, panel.eta)
+        for _ in range(cuts):
+            more, more_across = _sum_areas(real, imag, panel.eta, cut, _NODES_24, _WEIGHTS_24)
+            area += tau * tau * more
+            across += tau * tau * more_across
+            cut = Cut(cut.pole, cut.spread, cut.middle * growth, cut.half)
+    return 2.0 * math.pi * area, math.pi * across
+
+
+@kernel
+def extreme_phases(z: Four) -> tuple[int, int]:
+    """Numbers of necks and of bulges strictly inside the arc.
+
+    The phase arg(1 + Hζ) is a multiple of 2π at a neck and an odd one of π at a bulge.
+    """
+    middle, length = middle_of(z), math.exp(z.log_length)
+    if abs(z.turn) < _STRAIGHT:  # a catenoid
+        return (1 if abs(middle.imag) < length else 0), 0
+    curvature = z.turn / length
+    phase = math.atan2(curvature * middle.imag, 1.0 + curvature * middle.real)
+    return _multiples(phase, abs(z.turn)), _multiples(phase - math.pi, abs(z.turn))
+
+
+@kernel
+def _multiples(phase: float, reach: float) -> int:
+    """How many multiples of 2π lie strictly within a reach of a phase."""
+    low, high = (phase - reach) / (2.0 * math.pi), (phase + reach) / (2.0 * math.pi)
+    return int(math.ceil(high) - 1.0 - math.floor(low))
+
+
+@kernel
+def lay_meridian(z: Four, place: Nodes, radius: Nodes) -> None:
+    """Place on the axis from the first end, and radius, at points evenly spaced along the arc."""
+    middle, length = middle_of(z), math.exp(z.log_length)
+    last = place.size - 1
+    place[0] = 0.0
     for i in range(last + 1):
-        t = 2.0 * i / last - 1.0
-        radius[i] = middle.half_length * abs(point_on_arc(middle.y, middle.slope, middle.phase, t))
+        share = 2.0 * i / last - 1.0
+        radius[i] = abs(place_after(middle, length, share, turn_of(z.turn * share)).zeta)
         if i == last:
             break
         advance = 0.0
-        for j in range(_NODES.size):
-            zeta = point_on_arc(middle.y, middle.slope, middle.phase, t + 2.0 * _NODES[j] / last)
-            advance += _WEIGHTS[j] * zeta.real / abs(zeta)
-        x[i + 1] = x[i] + middle.half_length * advance * 2.0 / last
+        for j in range(_NODES_16.size):
+            between = share + (1.0 + _NODES_16[j]) / last
+            zeta = place_after(middle, length, between, turn_of(z.turn * between)).zeta
+            advance += _WEIGHTS_16[j] * zeta.real / abs(zeta)
+        place[i + 1] = place[i] + length * advance / last

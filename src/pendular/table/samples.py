@@ -1,7 +1,7 @@
 """Exact bridges of one octave of the control as Chebyshev series, which answer for all that lies between them.
 
 A table has many more nodes than it takes to know the bridges: they are analytic in the logarithm of the control, in the
-size of the pair, and in the coordinate q of :mod:`~pendular.exact.fractions`, stretched at a constant volume. Series of
+size of the pair, and in the coordinate q of :mod:`~pendular.exact.branch`, stretched at a constant volume. Series of
 some ten to forty terms reach far below the tolerance of the table.
 """
 
@@ -12,10 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._jit import in_chunks, kernel
-from ..exact.equilibrium import Solids
-from ..exact.fractions import fractions_range, stretch_of
-from ..exact.middle import CURVATURE, VOLUME
-from ..exact.neighbours import BLOCK, blocks_range
+from ..exact.branch import branch_range, stretch_of
+from ..exact.equations import SUCTION, VOLUME
 from .cuts import chebyshev, to_chebyshev
 from .task import Task
 
@@ -55,26 +53,18 @@ def _pairs(task: Task, control: Floats, size: Floats, side: int) -> Floats:
     return np.column_stack([control, 2.0 - larger, angle1, larger, angle2])
 
 
-def exact_curves(task: Task, control: Floats, size: Floats, side: int, q: Floats) -> Curves:
-    """Solve for the curves at controls and sizes, all at the same q, each for itself."""
+def exact_curves(
+    task: Task, control: Floats, size: Floats, side: int, q: Floats, *, stretched: bool = False
+) -> Curves:
+    """Solve for the curves at controls and sizes, all at the same q."""
     order = np.argsort(q)
-    ascending = np.broadcast_to(q[order], (control.size, q.size))
     found = Curves(np.empty(control.size), np.empty((control.size, q.size, 2)))
-    held = VOLUME if task.is_volume else CURVATURE
-    in_chunks(fractions_range, control.size, _CHUNK, held, _pairs(task, control, size, side), ascending, *found)
+    held = VOLUME if task.is_volume else SUCTION
+    pairs = _pairs(task, control, size, side)
+    in_chunks(branch_range, control.size, _CHUNK, held, stretched, pairs, q[order], *found)
     values = np.empty_like(found.values)
     values[:, order] = found.values
     return Curves(found.rupture, values)
-
-
-def _neighbouring_curves(task: Task, control: Floats, size: Floats, side: int, q: Floats) -> Curves:
-    """Solve for the curves at controls and sizes, neighbours next to each other, all at the same q, ascending."""
-    found = Curves(np.empty(control.size), np.empty((control.size, q.size, 2)))
-    blocks = -(-control.size // BLOCK)
-    held = VOLUME if task.is_volume else CURVATURE
-    pairs = _pairs(task, control, size, side)
-    in_chunks(blocks_range, blocks, 1, held, pairs, q, *found, np.zeros(blocks, np.int64))
-    return found
 
 
 def _to_series(values: Floats, axis: int) -> Floats:
@@ -121,7 +111,7 @@ def _solve_panels(task: Task, domain: Domain, edges: Floats, terms: int) -> Pane
     q = 0.5 - 0.5 * chebyshev(_terms(task, _Q_TERMS))
     shape = (*along.shape, control.size)
     controls, sizes = (np.broadcast_to(each, shape).ravel() for each in (control, along[..., None] ** domain.power))
-    found = _neighbouring_curves(task, controls, sizes, domain.side, q)
+    found = exact_curves(task, controls, sizes, domain.side, q, stretched=task.is_volume)
     rupture = found.rupture.reshape(shape)
     values = np.moveaxis(found.values.reshape(*shape, q.size, 2), 4, 3)[..., ::-1]
     units = rupture.min(axis=(1, 2)), np.abs(values[..., 0, 0]).min(axis=(1, 2))  # the first q is contact
@@ -206,7 +196,7 @@ def _sampled_range(
                 for n in range(terms):
                     force[n] += weight * sample.values[panel, j, k, 0, n]
                     liquid[n] += weight * sample.values[panel, j, k, 1, n]
-        stretch = stretch_of(control[i], Solids(1.0, 0.0, 1.0, 0.0))
+        stretch = stretch_of(control[i], 2.0)
         for n in range(q.size):
             at = _stretched(q[n], rupture[i], stretch) if sample.is_stretched else q[n]
             z = 2.0 * at - 1.0

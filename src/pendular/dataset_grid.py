@@ -15,19 +15,27 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .._jit import kernel
-from .contact import Contact, cap_volume, contact_at, wetted_arc_of, wetted_area
-from .equilibrium import Solids, are_equal
-from .meridian import arc_across, arc_from_neck, arc_length_from_neck, middle_between
+from ._jit import kernel
+from .exact.algebra import Four
+from .exact.meridian import areas_of, measure_arc, place_after, turn_of
+from .laws.contact_circle import Contact, cap_volume, contact_at, wetted_arc_of, wetted_area
 
 Vector = NDArray[np.float64]
 Table = NDArray[np.float64]
 Spans = NDArray[np.int64]
 
-_SMALL_SUCTION = 0.1  # |H|Y below which the closed form of the volume loses more than a digit
 _BISECTIONS = 60
 _SECTIONS = 40  # each leaves two thirds of the interval: 1e-7 of it in the end, 1e-14 in the value of a maximum
 _NEAR_CONTACT = 0.03  # share of the largest separation up to which a volume is better sought on lines of constant angle
+
+
+class Solids(NamedTuple):
+    """Two spheres: curvature k = 1/R and contact angle, each."""
+
+    k1: float
+    theta1: float
+    k2: float
+    theta2: float
 
 
 class Side(NamedTuple):
@@ -66,15 +74,27 @@ def _no_point() -> GridPoint:
 
 
 @kernel
-def _side(curvature: float, contact: Contact) -> Side:
+def _arc_length(curvature: float, contact: Contact, ratio: float) -> float:
+    """Arc length s from the neck to a contact circle: tan(Hs/2) = HY sin ψ/(q + 1 + HY cos ψ), q = 1 + HY0."""
+    turned = curvature * contact.radius
+    tangent = contact.radius * contact.sin_slope / (ratio + 1.0 + turned * contact.cos_slope)  # tan(Hs/2)/H
+    x = curvature * tangent
+    return 2.0 * tangent * (math.atan(x) / x if abs(x) > 1e-8 else 1.0)
+
+
+@kernel
+def _side(curvature: float, force: float, contact: Contact) -> Side:
     """Gap, volume and areas between the neck and a sphere."""
-    arc = arc_from_neck(curvature, contact.radius, contact.sin_slope, contact.cos_slope)
-    rotated = arc.volume
-    if abs(curvature) * contact.radius < _SMALL_SUCTION:
-        ahead = arc_length_from_neck(curvature, contact.radius, contact.sin_slope, contact.cos_slope)
-        middle = middle_between(curvature, arc.neck_radius, 0.0, ahead)
-        rotated = arc_across(middle.y, middle.slope, middle.phase, False).volume * middle.half_length**3
-    return Side(arc.length - contact.sagitta, rotated - cap_volume(contact), arc.area, wetted_area(contact))
+    ratio = math.sqrt(1.0 + 2.0 * curvature * force)
+    neck = 2.0 * force / (1.0 + ratio)
+    length = 0.5 * _arc_length(curvature, contact, ratio)
+    turn = curvature * length
+    middle = place_after(complex(neck, 0.0), length, 1.0, turn_of(turn)).zeta
+    z = Four(math.log(abs(middle)), math.atan2(middle.imag, middle.real), math.log(length), turn)
+    along, liquid = measure_arc(z, True, True)
+    area, _across = areas_of(z)
+    volume = math.pi * liquid.value - cap_volume(contact)
+    return Side(along.value - contact.sagitta, volume, area, wetted_area(contact))
 
 
 @kernel
@@ -101,14 +121,14 @@ def grid_point(filling: float, neck_ratio: float, solids: Solids) -> GridPoint:
     spread = (1.0 - neck_ratio) * (1.0 + neck_ratio)
     curvature = 2.0 * (neck_ratio - small.cos_slope) / (small.radius * spread)
     force = force_of(small, neck_ratio)
-    if are_equal(solids):
+    if solids.k1 == solids.k2 and solids.theta1 == solids.theta2:
         wetted_arc, large = filling / solids.k1, small
     else:
         wetted_arc = wetted_arc_of(force, curvature, solids.k2, solids.theta2)
         large = contact_at(wetted_arc, solids.k2, solids.theta2)
     if not large.sin_slope > 0.0:
         return _no_point()
-    first, second = _side(curvature, small), _side(curvature, large)
+    first, second = _side(curvature, force, small), _side(curvature, force, large)
     volume = first.volume + second.volume
     energy = (
         first.area

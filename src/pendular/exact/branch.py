@@ -1,0 +1,127 @@
+r"""Bridges at given places of a stable branch, in a coordinate in which the branch is smooth.
+
+With D_c the rupture distance, the coordinate is :math:`q = \sqrt{1 - D/D_c}`: 0 at rupture, 1 at contact. A force curve
+has a vertical tangent at rupture as a function of D, and none as a function of q.
+
+A small volume spreads fast when the solids move apart: then the force falls within a distance d of contact much shorter
+than D_c. The stretched coordinate, with asinh(D/d) in the place of D, is smooth in such a curve as well.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .._jit import kernel
+from .algebra import Four, largest
+from .equations import SUCTION, Held, curvature_of, force_of, system_at
+from .ends import stable_bridge, upper_end
+from .follow import ARRIVED, BRANCH_ENDS, FOLD, PITCHFORK, Nodes
+from .morph import Task, held_of
+from .newton import newton_to
+from .search import at_separation
+from .stability import ladder_at
+
+Vector = NDArray[np.float64]
+Rows = NDArray[np.float64]
+
+_MOST_STEPS = 6
+_NEAR = 0.25  # largest miss of a foretold bridge, over its way from the last one
+
+
+@kernel
+def stretch_of(volume: float, curvatures: float) -> float:
+    """Distance d from contact in which the force of a small volume falls: √(2V/πR̄), with k1 + k2 = 2/R̄."""
+    return math.sqrt(curvatures * volume / math.pi)
+
+
+@kernel
+def separation_at(q: float, rupture: float, stretch: float) -> float:
+    """D at a coordinate q, stretched by the length d; an infinite d does not stretch."""
+    if math.isinf(stretch):
+        return rupture * (1.0 - q * q)
+    return stretch * math.sinh(math.asinh(rupture / stretch) * (1.0 - q * q))
+
+
+@kernel
+def _foretold(q: Vector, i: int, end: Four, passed: Nodes) -> Four:
+    """Meridian at q[i], ascending, by the polynomial through up to three before it; the first is the end, at q = 0."""
+    first = max(i - 3, -1)
+    a = b = c = d = 0.0
+    for j in range(first, i):
+        place = q[j] if j >= 0 else 0.0
+        weight = 1.0
+        for k in range(first, i):
+            if k != j:
+                other = q[k] if k >= 0 else 0.0
+                weight *= (q[i] - other) / (place - other)
+        if j >= 0:
+            a, b, c, d = (
+                a + weight * passed[j, 0],
+                b + weight * passed[j, 1],
+                c + weight * passed[j, 2],
+                d + weight * passed[j, 3],
+            )
+        else:
+            a, b, c, d = a + weight * end[0], b + weight * end[1], c + weight * end[2], d + weight * end[3]
+    return Four(a, b, c, d)
+
+
+@kernel
+def _is_stable(z: Four, held: Held) -> bool:
+    ladder = ladder_at(z, system_at(z, held, True, True))
+    return (ladder.at_suction if held.control == SUCTION else ladder.at_volume) == 0
+
+
+@kernel
+def fill_branch(task: Task, q: Vector, stretch: float, values: Rows, nodes: Nodes) -> float:
+    """Force λ, and V or H, of the stable bridges at each q, ascending; returns the rupture distance, NaN if none.
+
+    Every bridge is found from the ones nearer to rupture; where that does not lead to a stable one near by, it is sought.
+    """
+    values[:] = math.nan
+    held = held_of(task)
+    walk, is_found = upper_end(task, BRANCH_ENDS, nodes)
+    if not (is_found and (walk.event in (FOLD, PITCHFORK)) and walk.stance.separation > 0.0):
+        return math.nan
+    rupture = walk.stance.separation
+    last = walk.stance.z
+    for i in range(q.size):
+        separation = separation_at(q[i], rupture, stretch)
+        guess = _foretold(q, i, walk.stance.z, nodes)
+        z, is_met = newton_to(guess, separation, held, _MOST_STEPS)
+        way, miss = _distance(guess, last), _distance(z, guess)
+        if not (is_met and miss < _NEAR * way and _is_stable(z, held)):
+            sought = stable_bridge(at_separation(task, separation), BRANCH_ENDS, nodes[:0])
+            if sought.event != ARRIVED:
+                break
+            z = sought.stance.z
+        last = z
+        nodes[i, 0], nodes[i, 1], nodes[i, 2], nodes[i, 3] = z[0], z[1], z[2], z[3]
+        values[i, 0] = force_of(z)
+        values[i, 1] = math.pi * system_at(z, held, True, True).volume.value if held.control == SUCTION else curvature_of(z)
+    return rupture
+
+
+@kernel
+def _distance(a: Four, b: Four) -> float:
+    return largest(Four(a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]))
+
+
+@kernel
+def branch_range(
+    control: int, stretched: bool, pairs: Rows, q: Vector, rupture: Vector, values: NDArray[np.float64],
+    start: int, stop: int,
+) -> None:
+    """Branches at the same q, ascending, for the rows from start to stop.
+
+    Rows of ``pairs`` are (H or V, k1, θ1, k2, θ2). ``values`` has for each row and q the force, and V or H.
+    """
+    nodes = np.empty((q.size, 4))
+    for i in range(start, stop):
+        value, k1, angle1, k2, angle2 = pairs[i]
+        stretch = stretch_of(value, k1 + k2) if stretched else math.inf
+        if control != SUCTION:
+            value /= math.pi
+        task = Task(0.0, value, k1, angle1, k2, angle2, control)
+        rupture[i] = fill_branch(task, q, stretch, values[i], nodes)

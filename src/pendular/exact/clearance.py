@@ -1,0 +1,105 @@
+"""Whether a meniscus stays outside both solids between its two contact circles.
+
+The equations know the solids at the contact circles only. Along the arc the curvature of the meridian is H/2 + λ/Y². A
+meridian that runs forward along the axis and is nowhere bent more tightly towards a solid than that solid itself cannot
+come back to it, nor one that nowhere is narrower than the contact circle. Where neither is certain, points are looked at.
+"""
+
+import math
+
+from .._jit import kernel
+from .algebra import Four
+from .equations import Held, System, curvature_of, force_of
+from .meridian import Cut, End, cuts_of, extreme_phases, middle_of, node_at, panel_of, panels_of
+from .solids import Solid, contact_with, depth_inside, half_filling_angle
+
+_MOST_TURN = 6.3  # |ω|: an arc of a whole wave
+_FARTHEST = 60.0  # |ln Ym| and |ln ℓ|
+_PIECES = 16  # of a cut, at whose ends the meridian is looked at
+_DEEPEST = 1e-7  # over the arc length; contact circles themselves lie at zero
+_GAUSS = ((-math.sqrt(0.6), 5.0 / 9.0), (0.0, 8.0 / 9.0), (math.sqrt(0.6), 5.0 / 9.0))
+
+
+@kernel
+def opening_of(z: Four, system: System, held: Held) -> float:
+    """The smaller contact circle over ℓ; negative where that lies past the far pole of its solid, or the arc winds up."""
+    first, second = system.first, system.second
+    filling1 = half_filling_angle(held.first, first.cos_slope, first.sin_slope)
+    filling2 = half_filling_angle(held.second, second.cos_slope, second.sin_slope)
+    is_regular = (
+        abs(z.turn) < _MOST_TURN
+        and abs(z.log_radius) < _FARTHEST
+        and abs(z.log_length) < _FARTHEST
+        and min(filling1, filling2) >= 0.0
+        and max(filling1, filling2) < math.pi
+    )
+    return min(first.radius, second.radius) * math.exp(-z.log_length) if is_regular else -1.0
+
+
+@kernel
+def radius_range(z: Four, system: System) -> tuple[float, float]:
+    """Least and largest radius of the arc."""
+    least = min(system.first.radius, system.second.radius)
+    most = max(system.first.radius, system.second.radius)
+    necks, bulges = extreme_phases(z)
+    if necks + bulges == 0:
+        return least, most
+    middle, curvature = middle_of(z), curvature_of(z)
+    ratio = math.hypot(1.0 + curvature * middle.real, curvature * middle.imag)
+    if necks > 0:
+        least = min(least, 2.0 * abs(force_of(z)) / (1.0 + ratio))
+    if bulges > 0:
+        most = max(most, (1.0 + ratio) / abs(curvature))
+    return least, most
+
+
+@kernel
+def _is_certain(end: End, solid: Solid, least: float, bend: float) -> bool:
+    """Whether a meridian that runs forward stays clear of a solid, by its least radius and its largest bend."""
+    cos_filling = solid.sin_angle * end.cos_slope + solid.cos_angle * end.sin_slope
+    return bend >= -solid.curvature or (end.radius <= least and cos_filling >= 0.0)
+
+
+@kernel
+def is_clear(z: Four, system: System, held: Held) -> bool:
+    """Whether the meniscus enters neither solid."""
+    least, most = radius_range(z, system)
+    force, half = force_of(z), 0.5 * curvature_of(z)
+    runs_forward = min(force - half * least * least, force - half * most * most) > 0.0
+    bend = half + min(force / (least * least), force / (most * most))
+    if (
+        runs_forward
+        and _is_certain(system.first, held.first, least, bend)
+        and _is_certain(system.second, held.second, least, bend)
+    ):
+        return True
+    return _stays_outside(z, system, held)
+
+
+@kernel
+def _stays_outside(z: Four, system: System, held: Held) -> bool:
+    """Whether points along the meniscus lie outside both solids, but for the last, on the second contact circle."""
+    first, separation = system.first, system.separation.value
+    place = -contact_with(held.first, first.radius, first.cos_slope, first.sin_slope).height
+    most = _DEEPEST * math.exp(z.log_length)
+    panels = panels_of(z.turn)
+    for number in range(panels):
+        panel = panel_of(z, number, panels)
+        tau, half_eta = panel.tau, 0.5 * panel.eta
+        real, imag = panel.place.zeta.real / tau, panel.place.zeta.imag / tau
+        cut, growth, cuts = cuts_of(real, imag, panel.eta)
+        for _ in range(cuts):
+            for i in range(_PIECES):
+                end = -1.0 + 2.0 * (i + 1.0) / _PIECES
+                for shift, weight in _GAUSS:
+                    node = node_at(real, imag, half_eta, cut, end - (1.0 - shift) / _PIECES, weight / _PIECES)
+                    place += tau * node.ds * node.zeta_real / math.hypot(node.zeta_real, node.zeta_imag)
+                node = node_at(real, imag, half_eta, cut, end, 0.0)
+                radius = tau * math.hypot(node.zeta_real, node.zeta_imag)
+                inside = max(
+                    depth_inside(held.first, place, radius), depth_inside(held.second, separation - place, radius)
+                )
+                if inside > most:
+                    return False
+            cut = Cut(cut.pole, cut.spread, cut.middle * growth, cut.half)
+    return True

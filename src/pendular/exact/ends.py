@@ -1,0 +1,254 @@
+"""Where the stable branch of a pair ends: rupture above, and at some volumes a lower end; and what lies beyond.
+
+Bridges of one suction or volume are stable from contact, or from a lower end where the drop would rather swallow the
+better wetted solid, up to rupture. Both ends are folds, or for mirror images a pitchfork, where the liquid slides to one
+side. From each an unstable branch leaves.
+"""
+
+import math
+from typing import NamedTuple
+
+from .._jit import kernel
+from .algebra import Four, dot, largest, minors, moved, normal, scaled, solve4, unit_vector
+from .equations import SUCTION, Held, first_row, held_row, system_at
+from .follow import (
+    ARRIVED,
+    BRANCH_ENDS,
+    FOLD,
+    FOLDS,
+    LOST,
+    NOTHING,
+    PITCHFORK,
+    Curve,
+    Nodes,
+    Stance,
+    Walk,
+    back_from,
+    beyond,
+    corrected,
+    follow,
+    set_out,
+    stance_at,
+)
+from .guess import guess_at, rupture_at_suction, rupture_at_volume
+from .morph import Task, held_of
+from .newton import held_target, newton_to
+from .search import anchor, is_symmetric
+from .stability import ladder_at
+
+_NEXT_TO_RUPTURE = 0.85  # of the estimate, where to start
+_MOST_STARTS, _MOST_STEPS = 4, 14
+_MOST_LEAPS = 40
+_FIRST_LEAP, _LONGEST_LEAP, _SHORTEST_LEAP = 0.1, 0.25, 1e-7
+_FINE_LEAP, _LAST_LEAP = 1e-3, 1e-5  # to the end; the secant rule and Newton's make of the last one its square
+_SETTLING, _MOST_SETTLING, _AT_THE_END = 1e-4, 6, 1e-12
+_LEAST_COSINE = 0.9
+_FLAT = 1e-7  # where the signs of the ladder are those of rounding errors
+_THERE = 1e-13  # miss of a separation, over ℓ, that is none
+_NOWHERE = Four(0.0, 0.0, 0.0, 0.0)
+
+
+@kernel
+def walk_from_anchor(task: Task, going: float, target: float, stops_at: int, nodes: Nodes) -> tuple[Walk, bool]:
+    """Walk from a stable bridge, up (going > 0) or down, and whether there was one to start from."""
+    stance, is_stable = anchor(task, nodes)
+    stance, curve = set_out(stance.z, held_of(task), is_symmetric(task), going)
+    if not is_stable:
+        return Walk(LOST, stance, curve, 0, going), False
+    return follow(stance, curve, target, stops_at, nodes[:0]), True
+
+
+@kernel
+def _rupture_guess(held: Held) -> float:
+    return rupture_at_suction(held) if held.control == SUCTION else rupture_at_volume(held)
+
+
+class Glance(NamedTuple):
+    """A point near a curve: the way back to it, and where it goes there."""
+
+    way: Four
+    stance: Stance  # of the point itself
+
+
+@kernel
+def _glance(z: Four, curve: Curve, fine: bool) -> Glance:
+    """One look at a point near a curve."""
+    held = curve.held
+    system = system_at(z, held, fine, True)
+    first, row = first_row(z, system, curve.symmetric), held_row(z, system, held)
+    along = unit_vector(normal(minors(first.rates, system.contact2.rates), row.rates))
+    way, _det = solve4(
+        first.rates,
+        system.contact2.rates,
+        row.rates,
+        along,
+        -first.value,
+        -system.contact2.value,
+        held_target(row, held),
+        0.0,
+    )
+    tangent = scaled(curve.hand, along)
+    ladder = ladder_at(z, system)
+    stance = Stance(
+        z,
+        tangent,
+        system.separation.value,
+        dot(tangent, system.separation.rates) * math.exp(-z.log_length),
+        ladder.at_suction if held.control == SUCTION else ladder.at_volume,
+        system.contact2.rates.slope if curve.symmetric else 1.0,
+        1.0,
+    )
+    return Glance(way, stance)
+
+
+@kernel
+def _is_in_order(stance: Stance, margin: float) -> bool:
+    """Whether a point lies on the stable piece of a curve, or on the one after its end."""
+    after = (1 if stance.slope < 0.0 else 0) + (1 if stance.margin * margin < 0.0 else 0)
+    return stance.index == after
+
+
+@kernel
+def _vanishes(event: int, stance: Stance) -> float:
+    return stance.margin if event == PITCHFORK else stance.slope
+
+
+@kernel
+def _settled(event: int, z: Four, curve: Curve) -> tuple[Stance, bool]:
+    """The end of a branch from a point very near to it."""
+    near = stance_at(z, curve)
+    z, steps, _way = corrected(z, curve, near.tangent)
+    stance = stance_at(z, curve)
+    value, step = _vanishes(event, stance), _SETTLING
+    for _ in range(_MOST_SETTLING):
+        z, steps, _way = corrected(moved(stance.z, step, stance.tangent), curve, stance.tangent)
+        ahead = stance_at(z, curve)
+        at_ahead = _vanishes(event, ahead)
+        onward = -at_ahead * step / (at_ahead - value)
+        stance, value, step = ahead, at_ahead, onward
+        if steps == 0 or not abs(onward) < 1e-2:
+            return stance, False
+        if abs(onward) < _AT_THE_END:
+            return stance, True
+    return stance, abs(step) < 1e-9
+
+
+@kernel
+def _leap_to(event: int, start: Stance, curve: Curve) -> tuple[Stance, bool]:
+    """The fold or the pitchfork at the end of a stable branch by the secant rule, from a stable bridge on it."""
+    base, at_base, step = start, _vanishes(event, start), _FIRST_LEAP
+    sign = 1.0 if at_base > 0.0 else -1.0
+    fine = False
+    for _ in range(_MOST_LEAPS):
+        way, ahead = _glance(moved(base.z, step, base.tangent), curve, fine)
+        at_ahead = _vanishes(event, ahead)
+        if not (
+            largest(way) < 0.5 * abs(step) + 1e-7
+            and dot(ahead.tangent, base.tangent) > _LEAST_COSINE
+            and (_is_in_order(ahead, start.margin) or abs(at_ahead) < _FLAT)
+        ):
+            step *= 0.5
+            if not abs(step) > _SHORTEST_LEAP:
+                return base, False
+            continue
+        rate = (at_ahead - at_base) / step
+        onward = -at_ahead / rate if rate * sign < 0.0 else math.copysign(_LONGEST_LEAP, at_ahead * sign)
+        z = moved(ahead.z, 1.0, way)
+        if fine and abs(onward) < _LAST_LEAP and largest(way) < _LAST_LEAP:
+            return _settled(event, moved(z, onward, ahead.tangent), curve)
+        fine = abs(onward) < _FINE_LEAP
+        base = Stance(z, ahead.tangent, ahead.separation, ahead.slope, ahead.index, ahead.margin, ahead.opening)
+        at_base = at_ahead
+        step = max(-_LONGEST_LEAP, min(_LONGEST_LEAP, onward))
+        if abs(step) < _SHORTEST_LEAP:
+            step = math.copysign(_SHORTEST_LEAP, step)
+    return base, False
+
+
+@kernel
+def _quick_end(task: Task, stops_at: int) -> tuple[Walk, bool]:
+    """Rupture by leaps from a stable bridge next to it, and whether that went well."""
+    held, symmetric = held_of(task), is_symmetric(task)
+    separation, is_met = _NEXT_TO_RUPTURE * _rupture_guess(held), False
+    start, curve = Stance(_NOWHERE, _NOWHERE, 0.0, 0.0, 0, 0.0, 0.0), Curve(held, symmetric, 1.0)
+    for _ in range(_MOST_STARTS):
+        z, is_met = newton_to(guess_at(held, separation), separation, held, _MOST_STEPS)
+        if is_met:
+            start, curve = set_out(z, held, symmetric, 1.0)
+            is_met = start.index == 0 and start.opening > 0.0
+            if is_met:
+                break
+        separation *= 0.75
+    if not is_met:
+        return Walk(LOST, start, curve, 0, 1.0), False
+    end, is_found = _leap_to(FOLD, start, curve)
+    event = FOLD
+    if is_found and stops_at == BRANCH_ENDS and end.margin * start.margin < 0.0:
+        end, is_found = _leap_to(PITCHFORK, start, curve)
+        event = PITCHFORK
+    is_found = is_found and end.separation > start.separation and end.opening > 0.0
+    return Walk(event, end, curve, 0, 1.0), is_found
+
+
+@kernel
+def upper_end(task: Task, stops_at: int, nodes: Nodes) -> tuple[Walk, bool]:
+    """Rupture: the end of the stable branch, or its fold."""
+    walk, is_found = _quick_end(task, stops_at)
+    if is_found:
+        return walk, True
+    return walk_from_anchor(task, 1.0, math.nan, stops_at, nodes)
+
+
+@kernel
+def lower_end(task: Task, stops_at: int, nodes: Nodes) -> tuple[Walk, bool]:
+    """The end of the stable branch towards contact; the walk arrives if it goes on to D = 0."""
+    walk, is_found = walk_from_anchor(task, -1.0, 0.0, stops_at, nodes)
+    if is_found and walk.stance.separation <= 0.0:
+        return Walk(ARRIVED, walk.stance, walk.curve, walk.nodes, walk.going), True
+    return walk, is_found
+
+
+@kernel
+def unstable_bridge(task: Task, stops_at: int, nodes: Nodes) -> tuple[Walk, bool]:
+    """The bridge at a separation beyond the end of the stable branch: after rupture, else after the lower end."""
+    top, is_found = upper_end(task, stops_at, nodes)
+    if not is_found or top.event not in (FOLD, PITCHFORK):
+        return top, is_found
+    if task.separation >= top.stance.separation:
+        if top.event == FOLD:
+            return top, True
+        # mirror images that have lost the stability against sliding stay symmetric up to their fold
+        return walk_from_anchor(task, 1.0, task.separation, FOLDS, nodes)
+    stance, curve = beyond(top)
+    walk = follow(stance, curve, task.separation, NOTHING, nodes[:0])
+    if walk.event == ARRIVED:
+        return walk, True
+    bottom, _ = lower_end(task, stops_at, nodes)
+    if bottom.event != FOLD or task.separation < bottom.stance.separation:
+        return walk, True
+    stance, curve = beyond(bottom)
+    other = follow(stance, curve, task.separation, NOTHING, nodes[:0])
+    return (other if other.event == ARRIVED else walk), True
+
+
+@kernel
+def stable_bridge(task: Task, stops_at: int, nodes: Nodes) -> Walk:
+    """The stable bridge of a task: the walk arrives there, or at the end of the branch beyond which there is none."""
+    top, is_found = upper_end(task, stops_at, nodes)
+    if is_found and (top.event == FOLD or top.event == PITCHFORK):
+        if task.separation >= top.stance.separation:
+            return top
+        stance, curve = back_from(top.stance, top.curve)
+        walk = follow(stance, curve, task.separation, stops_at, nodes[:0])
+        if walk.event != LOST:
+            return walk
+    going = 1.0
+    stance, is_stable = anchor(task, nodes)
+    if is_stable and task.separation < stance.separation:
+        going = -1.0
+    stance, curve = set_out(stance.z, held_of(task), is_symmetric(task), going)
+    if not is_stable:
+        return Walk(LOST, stance, curve, 0, going)
+    if abs(stance.separation - task.separation) < _THERE * math.exp(stance.z.log_length):
+        return Walk(ARRIVED, stance, curve, 0, going)
+    return follow(stance, curve, task.separation, stops_at, nodes[:0])

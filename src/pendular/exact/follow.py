@@ -1,0 +1,319 @@
+"""Following a curve of bridges that hold one thing, along its tangent, with the rule of folds.
+
+Along a curve of bridges at one suction or one volume the separation turns where, and only where, the number of unstable
+directions changes, by one. A step that breaks this rule has leapt to another curve: it is halved. A bridge between mirror
+images is kept symmetric; it may lose its symmetry as well, at a pitchfork, where an antisymmetric direction becomes
+unstable and the separation does not turn.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .._jit import kernel
+from .algebra import Four, dot, minors, moved, normal, scaled, solve4, unit_vector
+from .clearance import opening_of
+from .equations import SUCTION, VOLUME, Held, first_row, held_row, system_at
+from .stability import ladder_at
+
+Nodes = NDArray[np.float64]
+
+# How a walk ended.
+ARRIVED, FOLD, PITCHFORK, ENDED, LOST = 0, 1, 2, 3, 4
+# What a walk stops at, beside its target.
+NOTHING, FOLDS, BRANCH_ENDS = 0, 1, 2
+
+_FIRST_STEP, _LONGEST_STEP, _SHORTEST_STEP = 0.05, 0.3, 1e-9
+_MOST_STEPS = 1000
+_MOST_CORRECTIONS = 6
+_LARGEST_CORRECTION = 0.4  # over the step
+_LEAST_COSINE = 0.95  # of the turn of the tangent in a step
+_SMALL_CORRECTION = 1e-11
+_CLOSED = 1e-6  # contact circle over ℓ at which it has closed
+_NEARLY_CLOSED = 1e-2  # where a curve that cannot be followed on ends all the same: the circle closes in a fold
+_NEAR_END = 1e-10  # step to the end of a curve
+_FORK_STEP = 0.02  # of the slope in the middle, away from a pitchfork
+_PROBE = 1e-3  # way beyond a fold to where the index is certain
+_ROUNDING = 1e-30
+_FLAT = 1e-6  # slope of a fold
+
+
+class Stance(NamedTuple):
+    """A bridge on a curve, and where the curve goes from it."""
+
+    z: Four
+    tangent: Four
+    separation: float
+    slope: float  # dD/ds over ℓ
+    index: int  # unstable directions under what is held
+    margin: float  # of a symmetric bridge against the antisymmetric direction: it changes its sign there; else 1
+    opening: float  # the smaller contact circle over ℓ; negative past the far pole of a solid, or for an arc wound up
+
+
+class Curve(NamedTuple):
+    """A curve of bridges that hold one thing, and the sense in which it is followed."""
+
+    held: Held
+    symmetric: bool  # kept so, between mirror images
+    hand: float
+
+
+class Walk(NamedTuple):
+    """Where a walk ended, and how."""
+
+    event: int
+    stance: Stance
+    curve: Curve
+    nodes: int  # recorded
+    going: float  # sign of the slope before the end
+
+
+@kernel
+def stance_at(z: Four, curve: Curve) -> Stance:
+    """The bridge at a point of a curve."""
+    held, symmetric = curve.held, curve.symmetric
+    system = system_at(z, held, True, True)
+    rows = minors(first_row(z, system, symmetric).rates, system.contact2.rates)
+    tangent = scaled(curve.hand, unit_vector(normal(rows, held_row(z, system, held).rates)))
+    ladder = ladder_at(z, system)
+    return Stance(
+        z,
+        tangent,
+        system.separation.value,
+        dot(tangent, system.separation.rates) * math.exp(-z.log_length),
+        ladder.at_suction if held.control == SUCTION else ladder.at_volume,
+        system.contact2.rates.slope if symmetric else 1.0,
+        opening_of(z, system, held),
+    )
+
+
+@kernel
+def set_out(z: Four, held: Held, symmetric: bool, going: float) -> tuple[Stance, Curve]:
+    """A bridge, and the curve through it followed so that D grows (going > 0) or falls at first."""
+    curve = Curve(held, symmetric, 1.0)
+    stance = stance_at(z, curve)
+    if stance.slope * going < 0.0:
+        curve = Curve(held, symmetric, -1.0)
+        stance = stance_at(z, curve)
+    return stance, curve
+
+
+@kernel
+def corrected(z: Four, curve: Curve, along: Four) -> tuple[Four, int, float]:
+    """Newton's method back to the curve in the plane normal to a direction: the point, the steps, the way moved.
+
+    Steps are 0 where it failed.
+    """
+    held = curve.held
+    way = 0.0
+    for step in range(1, _MOST_CORRECTIONS + 1):
+        system = system_at(z, held, True, held.control == VOLUME)
+        first, row = first_row(z, system, curve.symmetric), held_row(z, system, held)
+        change, _ = solve4(
+            first.rates,
+            system.contact2.rates,
+            row.rates,
+            along,
+            -first.value,
+            -system.contact2.value,
+            -row.value,
+            0.0,
+        )
+        size = math.sqrt(dot(change, change))
+        if not size < 2.0:
+            return z, 0, way
+        z = moved(z, 1.0, change)
+        way += size
+        if size < _SMALL_CORRECTION:
+            return z, step, way
+    return z, 0, way
+
+
+@kernel
+def _obeys(before: Stance, after: Stance) -> bool:
+    """The rule of folds."""
+    folds = before.slope * after.slope < 0.0
+    forks = before.margin * after.margin < 0.0
+    if folds and forks:
+        return False
+    return abs(after.index - before.index) == (1 if folds or forks else 0)
+
+
+@kernel
+def stride(start: Stance, step: float, curve: Curve) -> tuple[Stance, bool, bool]:
+    """One step along a curve: where it leads, whether it can be trusted, and whether the next may be longer."""
+    z, steps, way = corrected(moved(start.z, step, start.tangent), curve, start.tangent)
+    if steps == 0 or way > _LARGEST_CORRECTION * step:
+        return start, False, False
+    after = stance_at(z, curve)
+    cosine = dot(start.tangent, after.tangent)
+    trusted = after.opening < _CLOSED or (cosine > _LEAST_COSINE and _obeys(start, after))
+    return after, trusted, steps <= 3 and cosine > 0.99
+
+
+@kernel
+def _excess(event: int, stance: Stance, target: float) -> float:
+    """What vanishes at an event."""
+    if event == PITCHFORK:
+        return stance.margin
+    if event == FOLD:
+        return stance.slope
+    return (stance.separation - target) * math.exp(-stance.z.log_length)
+
+
+@kernel
+def _locate(event: int, start: Stance, low: float, high: float, target: float, curve: Curve) -> Stance:
+    """The event between two lengths of a step, by the Illinois rule."""
+    first = start if low == 0.0 else _stance_after(start, low, curve)
+    best = _stance_after(start, high, curve)
+    at_low, at_high = _excess(event, first, target), _excess(event, best, target)
+    least, side = math.inf, 0
+    for _ in range(80):
+        middle = low + (high - low) * at_low / (at_low - at_high)
+        if not low < middle < high:
+            break
+        stance = _stance_after(start, middle, curve)
+        value = _excess(event, stance, target)
+        if abs(value) < least:
+            best, least = stance, abs(value)
+        if (value > 0.0) == (at_low > 0.0):
+            low, at_low = middle, value
+            at_high *= 0.5 if side > 0 else 1.0
+            side = 1
+        else:
+            high, at_high = middle, value
+            at_low *= 0.5 if side < 0 else 1.0
+            side = -1
+        if abs(value) < 1e-14 or high - low < 1e-14 * high:
+            break
+    return best
+
+
+@kernel
+def _stance_after(start: Stance, step: float, curve: Curve) -> Stance:
+    z, _steps, _way = corrected(moved(start.z, step, start.tangent), curve, start.tangent)
+    return stance_at(z, curve)
+
+
+@kernel
+def _with_index(stance: Stance, index: int) -> Stance:
+    """A stance whose index is known from its neighbours: next to a fold its own is the sign of a rounding error."""
+    return Stance(stance.z, stance.tangent, stance.separation, stance.slope, index, stance.margin, stance.opening)
+
+
+@kernel
+def _encloses(before: Stance, after: Stance, target: float) -> bool:
+    return (before.separation - target) * (after.separation - target) <= 0.0 and before.separation != target
+
+
+@kernel
+def _record(nodes: Nodes, count: int, z: Four) -> int:
+    """Store a point in the next row, if there is one: the number of rows filled."""
+    if count < nodes.shape[0]:
+        nodes[count, 0], nodes[count, 1], nodes[count, 2], nodes[count, 3] = z[0], z[1], z[2], z[3]
+        return count + 1
+    return count
+
+
+@kernel
+def follow(stance: Stance, curve: Curve, target: float, stops_at: int, nodes: Nodes) -> Walk:
+    """Follow a curve until D meets its target, or what it stops at, or the curve itself ends.
+
+    ``stops_at`` is NOTHING, FOLDS, or BRANCH_ENDS: folds and pitchforks. The points passed are stored in ``nodes``, as far as it reaches.
+    """
+    step, going = _FIRST_STEP, 0.0
+    count = _record(nodes, 0, stance.z)
+    for _ in range(_MOST_STEPS):
+        going = 1.0 if stance.slope > 0.0 else -1.0
+        after, trusted, longer = stride(stance, step, curve)
+        if not trusted:
+            step *= 0.4
+            if step < _SHORTEST_STEP:
+                event = ENDED if stance.opening < _NEARLY_CLOSED else LOST
+                return Walk(event, stance, curve, count, going)
+            continue
+        if after.opening < _CLOSED:
+            if step > _NEAR_END:
+                step *= 0.4
+                continue
+            return Walk(ENDED, stance, curve, count, going)
+        event, reach, end = ARRIVED, step, after
+        if stance.slope * after.slope < 0.0:
+            event = FOLD
+        elif stance.margin * after.margin < 0.0:
+            event = PITCHFORK
+        if event != ARRIVED:
+            end = _locate(event, stance, 0.0, step, target, curve)
+            if end.opening < _CLOSED:
+                step *= 0.4
+                if step < _SHORTEST_STEP:
+                    return Walk(ENDED, stance, curve, count, going)
+                continue
+            reach = dot(
+                stance.tangent,
+                Four(
+                    end.z[0] - stance.z[0],
+                    end.z[1] - stance.z[1],
+                    end.z[2] - stance.z[2],
+                    end.z[3] - stance.z[3],
+                ),
+            )
+        if _encloses(stance, end, target):
+            found = _with_index(_locate(ARRIVED, stance, 0.0, reach, target, curve), stance.index)
+            return Walk(ARRIVED, found, curve, _record(nodes, count, found.z), going)
+        if event != ARRIVED:
+            count = _record(nodes, count, end.z)
+            if stops_at == BRANCH_ENDS or (stops_at == FOLDS and event == FOLD):
+                return Walk(event, end, curve, count, going)
+            if _encloses(end, after, target):
+                found = _with_index(_locate(ARRIVED, stance, reach, step, target, curve), after.index)
+                return Walk(ARRIVED, found, curve, _record(nodes, count, found.z), going)
+        stance = after
+        count = _record(nodes, count, stance.z)
+        if longer:
+            step = min(_LONGEST_STEP, 1.6 * step)
+    return Walk(LOST, stance, curve, count, going)
+
+
+@kernel
+def just_after(stance: Stance, curve: Curve) -> Stance:
+    """A bridge so little further on a curve that nothing happens in between, where the index is certain."""
+    return _stance_after(stance, _PROBE, curve)
+
+
+@kernel
+def beyond(walk: Walk) -> tuple[Stance, Curve]:
+    """Where a curve goes on after the fold, or the pitchfork, at which a walk ended.
+
+    The slope and the index at the event itself are the signs of rounding errors: they are taken from a point beyond it. From a pitchfork two curves without symmetry start, mirror images of each other: one of them.
+    """
+    stance, curve = walk.stance, walk.curve
+    if walk.event == PITCHFORK:
+        held = curve.held
+        curve = Curve(held, False, 1.0)
+        away = Four(0.0, 1.0, 0.0, 0.0)
+        z, _steps, _way = corrected(moved(stance.z, _FORK_STEP, away), curve, away)
+        after = stance_at(z, curve)
+        if dot(after.tangent, away) < 0.0:
+            curve = Curve(held, False, -1.0)
+            after = stance_at(z, curve)
+        return after, curve
+    index = just_after(stance, curve).index
+    slope = -walk.going * _ROUNDING
+    return Stance(stance.z, stance.tangent, stance.separation, slope, index, stance.margin, stance.opening), curve
+
+
+@kernel
+def back_from(end: Stance, curve: Curve) -> tuple[Stance, Curve]:
+    """Where a curve goes on from the end of a stable branch, back along that branch."""
+    back = Curve(curve.held, curve.symmetric, -curve.hand)
+    stance = stance_at(end.z, back)
+    slope = stance.slope if abs(stance.slope) > _FLAT else math.copysign(_ROUNDING, -_slope_before(stance, back))
+    return Stance(stance.z, stance.tangent, stance.separation, slope, 0, 0.0, stance.opening), back
+
+
+@kernel
+def _slope_before(stance: Stance, curve: Curve) -> float:
+    return _stance_after(stance, -_PROBE, curve).slope

@@ -1,0 +1,241 @@
+"""Where to start looking for a bridge: a circular meridian between contact circles of nearly one radius, in closed form.
+
+At a volume the radius is that of a cylinder of liquid, corrected once for the circle; at a suction it is the largest root
+of the balance of a torus, whose second curvature is 1/Y, corrected once as well.
+"""
+
+import math
+from typing import NamedTuple
+
+from .._jit import kernel
+from .algebra import Four
+from .equations import SUCTION, Held
+from .solids import Solid
+
+_LARGEST_SINE = 0.97  # of a half-filling angle
+_LEAST_COSINE = 0.7  # of the slope of the chord between the contact circles
+_MOST_TURN = 1.5  # |ω|
+_FARTHEST_SHIFT = 0.6  # of a contact radius from their mean, over it
+_THINNEST_MIDDLE = 0.25  # over the mean contact radius
+_DEEPEST_BEND = -0.9  # cos of the half turn beyond which the sagitta of the circle is not used
+
+
+class Circle(NamedTuple):
+    """A circular meridian between two solids."""
+
+    middle: float  # radius in its middle
+    cos_tilt: float  # of the chord
+    tan_tilt: float
+    half_chord: float
+    cos_turn: float  # of half the turn of the slope
+    sin_turn: float
+    gap: float  # length along the axis
+    height1: float  # of the caps
+    height2: float
+    shift: float  # half the difference of the contact radii
+
+
+@kernel
+def _height_and_slope(solid: Solid, radius: float) -> tuple[float, float, float]:
+    """Height of the cap of a contact circle, and cosine and sine of the outward slope ψ there."""
+    sine = min(solid.curvature * radius, _LARGEST_SINE)
+    cosine = math.sqrt(1.0 - sine * sine)
+    c, s = solid.cos_angle, solid.sin_angle
+    return sine * radius / (1.0 + cosine), sine * c + cosine * s, cosine * c - sine * s
+
+
+@kernel
+def circle_between(held: Held, separation: float, radius: float, shift: float) -> Circle:
+    """Circular meridian from a contact circle of radius Y - shift to one of Y + shift."""
+    height1, cos1, sin1 = _height_and_slope(held.first, radius - shift)
+    height2, cos2, sin2 = _height_and_slope(held.second, radius + shift)
+    gap = separation + height1 + height2
+    x, y = cos1 + cos2, sin1 + sin2
+    size = math.sqrt(x * x + y * y)
+    cosine = 0.5 * size
+    if cosine > _LEAST_COSINE:
+        cos_turn, sin_turn = x / size, y / size
+        tangent = (sin2 * cos_turn - cos2 * sin_turn) / cosine
+    else:
+        inverse = 1.0 / max(size, 1e-9)
+        cos_turn, sin_turn = x * inverse, y * inverse
+        tangent = 1.0 if sin2 * cos_turn - cos2 * sin_turn > 0.0 else -1.0
+        cosine = _LEAST_COSINE
+    half_chord = 0.5 * gap / cosine
+    sagitta = half_chord * sin_turn / (1.0 + cos_turn) if cos_turn > _DEEPEST_BEND else 0.0
+    most = _FARTHEST_SHIFT * radius
+    return Circle(
+        max(radius - sagitta * cosine, _THINNEST_MIDDLE * radius),
+        cosine,
+        tangent,
+        half_chord,
+        cos_turn,
+        sin_turn,
+        gap,
+        height1,
+        height2,
+        max(-most, min(most, 0.5 * gap * tangent)),
+    )
+
+
+@kernel
+def _arc_of(circle: Circle, half_turn: float) -> float:
+    """Half length of a circular arc over its half chord: x/sin x."""
+    return circle.half_chord * (half_turn / circle.sin_turn if abs(half_turn) > 1e-6 else 1.0)
+
+
+@kernel
+def _bend_of(circle: Circle) -> float:
+    """(x/sin x + cos x)/2 of the half turn x: the sine of the slope over the half length, averaged."""
+    x = math.atan2(circle.sin_turn, circle.cos_turn)
+    return 0.5 * (x / circle.sin_turn + circle.cos_turn) if abs(x) > 1e-3 else 1.0
+
+
+@kernel
+def guess_at_volume(held: Held, separation: float, corrected: bool) -> Four:
+    """Meridian of a bridge that holds about the volume at a separation."""
+    volume = held.value
+    mean = 0.5 * (held.first.curvature + held.second.curvature)
+    radius = math.sqrt(2.0 * volume / (separation + math.sqrt(separation * separation + 2.0 * mean * volume)))
+    circle = circle_between(held, separation, radius, 0.0)
+    if corrected:
+        shift, middle, gap = circle.shift, circle.middle, circle.gap
+        h1, h2 = circle.height1, circle.height2
+        caps = h1 * (3.0 * radius * radius + h1 * h1) + h2 * (3.0 * radius * radius + h2 * h2)
+        inside = (gap * (2.0 * (radius * radius + shift * shift) + 4.0 * middle * middle) - caps) / 6.0
+        if inside > 0.05 * volume:
+            exponent = math.log(volume / inside) / (2.0 + 2.0 * (h1 + h2) / gap)
+            radius *= math.exp(max(-0.5, min(0.5, exponent)))
+        else:
+            radius *= 1.3
+        circle = circle_between(held, separation, radius, shift)
+    half_turn = math.atan2(circle.sin_turn, circle.cos_turn)
+    length = _arc_of(circle, half_turn)
+    turn = half_turn - circle.cos_tilt * length / circle.middle
+    return Four(
+        math.log(circle.middle),
+        math.atan(circle.tan_tilt),
+        math.log(length),
+        max(-_MOST_TURN, min(_MOST_TURN, turn)),
+    )
+
+
+@kernel
+def _torus_radius(held: Held, separation: float) -> float:
+    """Largest root Y of k̄HY³ + (k̄β + B)Y² + (DH - C)Y + βD = 0, C = Σ cos θ, B = Σ k sin θ, β as of the circle."""
+    one, other, suction = held.first, held.second, held.value
+    mean = 0.5 * (one.curvature + other.curvature)
+    cosines = one.cos_angle + other.cos_angle
+    sines = one.curvature * one.sin_angle + other.curvature * other.sin_angle
+    size = math.hypot(one.sin_angle + other.sin_angle, cosines)
+    sine, cosine = cosines / size, (one.sin_angle + other.sin_angle) / size
+    half_turn = math.atan2(sine, cosine)
+    bend = 0.5 * (half_turn / sine + cosine) if abs(half_turn) > 1e-3 else 1.0
+    positive = max(suction, 0.0)
+    linear = mean * bend + sines
+    room = max(cosines - separation * positive, 0.02 * cosines)
+    radius = 2.0 * room / (linear + math.sqrt(linear * linear + 4.0 * mean * positive * room))
+    for _ in range(4):
+        value = ((mean * suction * radius + linear) * radius + (separation * suction - cosines)) * radius
+        value += bend * separation
+        rate = (3.0 * mean * suction * radius + 2.0 * linear) * radius + (separation * suction - cosines)
+        if not rate > 0.0:
+            return radius * 1.1
+        step = min(value / rate, 0.5 * radius)
+        radius -= step
+        if abs(step) < 0.02 * radius:
+            break
+    return radius
+
+
+@kernel
+def guess_at_suction(held: Held, separation: float, corrected: bool, widened: float) -> Four:
+    """Meridian of a bridge under about the suction at a separation, with its contact circles widened by a factor."""
+    suction = held.value
+    one, other = held.first, held.second
+    radius = _torus_radius(held, separation) * widened
+    if not radius > 0.0:
+        radius = 0.5 / max(one.curvature, other.curvature)
+    circle = circle_between(held, separation, radius, 0.0)
+    if corrected:
+        gap, heights = circle.gap, circle.height1 + circle.height2
+        bend = _bend_of(circle) * circle.cos_tilt
+        mean = circle.middle + (radius - circle.middle) / 3.0
+        sines = 2.0 * circle.sin_turn * circle.cos_tilt  # sin ψ1 + sin ψ2
+        excess = gap * (suction * mean + bend) - sines * mean
+        slopes = one.curvature * one.sin_angle + other.curvature * other.sin_angle
+        rate = 2.0 * heights / radius * (suction * mean + bend) + gap * suction - sines + mean * slopes
+        if rate > 0.0:
+            radius *= math.exp(max(-0.4, min(0.4, -excess / rate / radius)))
+        circle = circle_between(held, separation, radius, circle.shift)
+    half_turn = math.atan2(circle.sin_turn, circle.cos_turn)
+    length = _arc_of(circle, half_turn)
+    turn = suction * length
+    if abs(turn) > _MOST_TURN:
+        length, turn = _MOST_TURN / abs(suction), math.copysign(_MOST_TURN, turn)
+    return Four(math.log(circle.middle), math.atan(circle.tan_tilt), math.log(length), turn)
+
+
+@kernel
+def guess_at(held: Held, separation: float) -> Four:
+    """Meridian of a bridge at a separation that holds about what is held."""
+    if held.control == SUCTION:
+        return guess_at_suction(held, separation, True, 1.0)
+    return guess_at_volume(held, separation, True)
+
+
+# ln(D_c/V^(1/3)) at a volume, fitted to 20000 exact ruptures: products of two of
+# (1, (θ1+θ2)/2, |θ1-θ2|, V^(1/3)/R̄, κ², (θ1-θ2)κ) with κ = (k1-k2)/(k1+k2).
+_RUPTURE_FIT = (
+    (0.0677, 0.3019, -0.3501, -0.1807, -0.0689, -0.1384),
+    (0.0, -0.0748, -0.2517, 0.1597, 0.0246, 0.0202),
+    (0.0, 0.0, 0.0229, 0.3218, 0.1480, 0.1033),
+    (0.0, 0.0, 0.0, -0.0554, -0.1666, -0.5349),
+    (0.0, 0.0, 0.0, 0.0, 0.0052, 0.0222),
+    (0.0, 0.0, 0.0, 0.0, 0.0, -0.0655),
+)
+
+
+@kernel
+def rupture_at_volume(held: Held) -> float:
+    """Rupture distance at a volume, within about a fifth for angles up to 90° and V up to R̄³."""
+    one, other = held.first, held.second
+    mean = 0.5 * (one.curvature + other.curvature)
+    size = (math.pi * held.value) ** (1.0 / 3.0)
+    difference = one.contact_angle - other.contact_angle
+    kappa = 0.5 * (one.curvature - other.curvature) / mean
+    terms = (
+        1.0,
+        0.5 * (one.contact_angle + other.contact_angle),
+        abs(difference),
+        size * mean,
+        kappa * kappa,
+        difference * kappa,
+    )
+    exponent = 0.0
+    for i in range(6):
+        for j in range(i, 6):
+            exponent += _RUPTURE_FIT[i][j] * terms[i] * terms[j]
+    return size * math.exp(exponent)
+
+
+@kernel
+def rupture_at_suction(held: Held) -> float:
+    """Rupture distance at a suction: the largest D = (C - BY) Y/(HY + β) - k̄Y² of the torus of the guess."""
+    one, other, suction = held.first, held.second, max(held.value, 0.0)
+    mean = 0.5 * (one.curvature + other.curvature)
+    cosines = one.cos_angle + other.cos_angle
+    sines = one.curvature * one.sin_angle + other.curvature * other.sin_angle
+    size = math.hypot(one.sin_angle + other.sin_angle, cosines)
+    sine, cosine = cosines / size, (one.sin_angle + other.sin_angle) / size
+    half_turn = math.atan2(sine, cosine)
+    bend = 0.5 * (half_turn / sine + cosine) if abs(half_turn) > 1e-3 else 1.0
+    radius = cosines / (2.0 * (sines + mean * bend))
+    if suction > 0.0:
+        radius = min(radius, (0.5 * cosines * bend / (mean * suction * suction)) ** (1.0 / 3.0))
+    for _ in range(6):
+        u = suction * radius + bend
+        value = (cosines - 2.0 * sines * radius) * bend - sines * suction * radius * radius - 2.0 * mean * radius * u * u
+        rate = -2.0 * sines * u - 2.0 * mean * u * u - 4.0 * mean * radius * u * suction
+        radius = max(radius - value / rate, 0.2 * radius)
+    return (cosines - sines * radius) * radius / (suction * radius + bend) - mean * radius * radius

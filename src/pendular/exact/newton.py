@@ -1,0 +1,51 @@
+"""Newton's method to the bridge at a separation."""
+
+import math
+
+from .._jit import kernel
+from .algebra import Four, largest, moved, solve4
+from .equations import VOLUME, Held, held_row, system_at
+from .meridian import Row
+
+_LONGEST_STEP = 1.0
+_MOST_TURN = 9.0  # |ω| beyond which an arc winds about itself
+_COARSE_STEP = 1e-4  # from which on the finer nodes are used
+_LAST_STEP = 1e-8  # quadratic convergence: what would follow is of the order of its square
+_NEARLY_HELD = 0.3  # share of the volume above which its logarithm is what is corrected
+
+
+@kernel
+def held_target(row: Row, held: Held) -> float:
+    """Right side of the held row: V/V0 in logarithm, as it may be far off at first."""
+    if held.control == VOLUME and row.value > _NEARLY_HELD - 1.0:
+        return -(1.0 + row.value) * math.log1p(row.value)
+    return -row.value
+
+
+@kernel
+def newton_to(z: Four, separation: float, held: Held, most: int) -> tuple[Four, bool]:
+    """From a guess to the bridge at a separation, and whether it was reached."""
+    with_volume, fine = held.control == VOLUME, False
+    for _ in range(most):
+        system = system_at(z, held, fine, with_volume)
+        row = held_row(z, system, held)
+        change, _det = solve4(
+            system.contact1.rates,
+            system.contact2.rates,
+            system.separation.rates,
+            row.rates,
+            -system.contact1.value,
+            -system.contact2.value,
+            separation - system.separation.value,
+            held_target(row, held),
+        )
+        size = largest(change)
+        if not size < 1e6:
+            break
+        z = moved(z, min(1.0, _LONGEST_STEP / size), change)
+        if not abs(z.turn) < _MOST_TURN:
+            break
+        if fine and size < _LAST_STEP:
+            return z, True
+        fine = size < _COARSE_STEP
+    return z, False

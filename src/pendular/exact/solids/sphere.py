@@ -1,0 +1,94 @@
+"""The sphere of radius R = 1/k, and the plane, k = 0.
+
+With δ the half-filling angle and ψ the outward slope of the meridian, δ = π/2 - θ - ψ, a meridian meets the solid at
+its contact angle θ where
+
+    kY - sin δ = 0 ,
+
+and the wetted cap has the height h = kY²/(1 + cos δ) and the volume π h (3Y² + h²)/6.
+"""
+
+import math
+from typing import NamedTuple
+
+from ..._jit import kernel
+
+_PAST_EQUATOR = -0.5  # cos δ below which h = (1 - cos δ)/k is the accurate form
+
+
+class Solid(NamedTuple):
+    """A sphere or a plane with its contact angle."""
+
+    curvature: float  # k = 1/R, 0 for a plane
+    contact_angle: float  # θ
+    cos_angle: float
+    sin_angle: float
+
+
+class Contact(NamedTuple):
+    """Contact equation, height h and cap volume over π, each with its rates in ln Y and in ψ."""
+
+    mismatch: float
+    mismatch_by_radius: float
+    mismatch_by_slope: float
+    height: float
+    height_by_radius: float
+    height_by_slope: float
+    cap: float
+    cap_by_radius: float
+    cap_by_slope: float
+
+
+@kernel
+def solid_of(curvature: float, contact_angle: float) -> Solid:
+    """Solid of a curvature and a contact angle."""
+    return Solid(curvature, contact_angle, math.cos(contact_angle), math.sin(contact_angle))
+
+
+@kernel
+def contact_with(solid: Solid, radius: float, cos_slope: float, sin_slope: float) -> Contact:
+    """What a contact circle of radius Y, with the outward slope ψ, amounts to."""
+    k = solid.curvature
+    sine = solid.cos_angle * cos_slope - solid.sin_angle * sin_slope  # of δ
+    cosine = solid.sin_angle * cos_slope + solid.cos_angle * sin_slope
+    turned = k * radius
+    if k > 0.0 and cosine < _PAST_EQUATOR:
+        height, by_radius, by_slope = (1.0 - cosine) / k, 0.0, -sine / k
+    else:
+        height = turned * radius / (1.0 + cosine)
+        by_radius, by_slope = 2.0 * height, -height * sine / (1.0 + cosine)
+    square = radius * radius
+    lifted = 0.5 * (square + height * height)
+    return Contact(
+        turned - sine,
+        turned,
+        cosine,
+        height,
+        by_radius,
+        by_slope,
+        height * (3.0 * square + height * height) / 6.0,
+        lifted * by_radius + height * square,
+        lifted * by_slope,
+    )
+
+
+@kernel
+def half_filling_angle(solid: Solid, cos_slope: float, sin_slope: float) -> float:
+    """δ in (-π, π]; 0 on a plane, π on its wrong side."""
+    sine = solid.cos_angle * cos_slope - solid.sin_angle * sin_slope
+    cosine = solid.sin_angle * cos_slope + solid.cos_angle * sin_slope
+    if solid.curvature == 0.0:
+        return 0.0 if cosine > 0.0 else math.pi
+    return math.atan2(sine, cosine)
+
+
+@kernel
+def wetted_area(radius: float, height: float) -> float:
+    """Liquid-solid area, π (Y² + h²): a cap on a sphere, a disc on a plane."""
+    return math.pi * (radius * radius + height * height)
+
+
+@kernel
+def depth_inside(solid: Solid, place: float, radius: float) -> float:
+    """How far a point lies inside a solid whose pole is at 0 and whose body at negative places; negative outside."""
+    return -place - 0.5 * solid.curvature * (place * place + radius * radius)

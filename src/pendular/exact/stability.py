@@ -1,0 +1,52 @@
+r"""Stability without integration: the ladder of equations.
+
+The number of axisymmetric directions in which the energy of a bridge falls follows from the signs of four determinants of
+the rates of its equations. Each rung frees what the one before holds: both contact circles and the suction held, then
+one circle free, then both, then the volume held in the place of the suction. With Y1, Y2 the contact radii, X the length,
+h1 the height of the first cap, c1, c2 the contact equations, D, V, H separation, volume and curvature:
+
+.. math:: & d_0 = \det(\ln Y_1, \ln Y_2, X, H), \quad d_1 = \det(c_1, \ln Y_2, X - h_1, H), \\
+          & d_2 = \det(c_1, c_2, D, H), \quad d_3 = \det(c_1, c_2, D, V)
+
+and with k extrema of the radius strictly inside the arc, n_D = k if d0 has the sign of (-1)^k, else k - 1, there are
+
+.. math:: n_s = n_D + [d_0 d_1 < 0] + [d_1 d_2 < 0], \qquad n_v = n_s - [d_2 d_3 > 0]
+
+unstable directions at fixed suction and at fixed volume. Sideways (the mode that shifts the liquid to one side) a bridge
+is unstable exactly where it pushes the solids apart.
+"""
+
+from typing import NamedTuple
+
+from .._jit import kernel
+from .algebra import Four, joined, minors
+from .equations import System, curvature_rates
+from .meridian import extreme_phases
+
+
+class Ladder(NamedTuple):
+    """Unstable axisymmetric directions."""
+
+    at_suction: int
+    at_volume: int
+
+
+@kernel
+def ladder_at(z: Four, system: System) -> Ladder:
+    """Unstable directions of a bridge; without the volume in its system, ``at_volume`` means nothing."""
+    curvature = curvature_rates(z)
+    c1, c2, ring2 = system.contact1.rates, system.contact2.rates, system.second.growth
+    both = minors(c1, c2)
+    held_rings = joined(minors(system.first.growth, ring2), minors(system.length.rates, curvature))
+    one_free = joined(minors(c1, ring2), minors(system.first_gap.rates, curvature))
+    both_free = joined(both, minors(system.separation.rates, curvature))
+    volume_held = joined(both, minors(system.separation.rates, system.volume.rates))
+    necks, bulges = extreme_phases(z)
+    extrema = necks + bulges
+    parity = 1.0 if extrema % 2 == 0 else -1.0
+    count = extrema if held_rings * parity > 0.0 else extrema - 1
+    if (held_rings > 0.0) != (one_free > 0.0):
+        count += 1
+    if (one_free > 0.0) != (both_free > 0.0):
+        count += 1
+    return Ladder(count, count - 1 if (both_free > 0.0) == (volume_held > 0.0) else count)
