@@ -102,6 +102,12 @@ def test_the_unstable_branch(answer):
     assert found["force"] == pl.bridge(PAIR, 1e-6, suction=20e3, liquid=WATER, branch="unstable").force
 
 
+def test_without_a_contact_angle_the_liquid_wets_all(answer):
+    found = parsed(answer("rupture", "--radius", "50um", "--suction", "20kPa", "--json"))
+    assert found["separation"] == pl.rupture(pl.Pair(50e-6), suction=20e3, liquid=WATER).separation
+    assert pl.rupture(pl.Pair(50e-6, 0.0), suction=20e3, liquid=WATER).separation == found["separation"]
+
+
 def test_rupture_under_suction_has_no_earlier_limit(answer):
     found = parsed(answer("rupture", *SUCTION, "--json"))
     assert found["separation"] == pl.rupture(PAIR, suction=20e3, liquid=WATER).separation
