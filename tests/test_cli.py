@@ -12,10 +12,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.main import get_command
 
 import pendular as pl
 from pendular.bridges import FIELDS
-from pendular.cli import main
+from pendular.cli import app, main
 
 GRAINS = ("--radius", "50um", "--contact-angle", "20")
 SUCTION = (*GRAINS, "--suction", "20kPa")
@@ -292,7 +293,7 @@ def process(code: str) -> subprocess.CompletedProcess[str]:
 def test_help_imports_nothing_heavy():
     code = """
 import sys
-from pendular.cli import main
+from pendular.cli import app, main
 try:
     main(["--help"])
 finally:
@@ -311,9 +312,27 @@ def test_bad_input_ends_the_process_without_a_traceback():
 
 def test_version_and_help(answer):
     assert answer("--version") == f"pendular {pl.__version__}\n"
-    assert answer() == answer("--help")
     for command in ("bridge", "rupture", "curve"):
         assert command in answer("--help")
+
+
+def commands_of(group, path=()):
+    """Words of every command and group of commands, with those inside."""
+    yield path
+    for name, command in getattr(group, "commands", {}).items():
+        yield from commands_of(command, (*path, name))
+
+
+@pytest.mark.parametrize("arguments", list(commands_of(get_command(app))), ids=" ".join)
+def test_every_command_has_its_help_by_a_letter_too(answer, arguments):
+    text = answer(*arguments, "--help")
+    assert f"Usage: {' '.join(('pendular', *arguments))} " in text
+    assert answer(*arguments, "-h") == text
+
+
+@pytest.mark.parametrize("arguments", [(), ("export",)], ids=["pendular", "pendular export"])
+def test_a_group_alone_shows_its_help(answer, arguments):
+    assert answer(*arguments) == answer(*arguments, "--help")
 
 
 @pytest.mark.parametrize("arguments", [(), ("bridge",), ("rupture",), ("curve",)])

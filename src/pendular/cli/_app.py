@@ -18,13 +18,28 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.console import RenderableType
 
-__all__ = ["app", "compiling_shown", "main", "print_answer", "print_page", "question_command", "save_picture"]
+__all__ = [
+    "app",
+    "compiling_shown",
+    "help_if_alone",
+    "main",
+    "need_extra",
+    "print_answer",
+    "print_page",
+    "question_command",
+    "save_picture",
+]
 
 _BAD_INPUT, _INTERRUPTED = 2, 130
 _FORMS = ("as_json", "as_csv", "plot")
 
 # The decorated help would first read a Markdown parser and a highlighter, which takes as long as all the rest.
-app = typer.Typer(rich_markup_mode=None, add_completion=False, pretty_exceptions_enable=False)
+app = typer.Typer(
+    rich_markup_mode=None,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -71,6 +86,11 @@ def _start(
     ] = False,
 ) -> None:
     """Capillary bridges between two solids, exactly."""
+    help_if_alone(context)
+
+
+def help_if_alone(context: typer.Context) -> None:
+    """Show the help of a group that was called without one of its commands."""
     if context.invoked_subcommand is None:
         typer.echo(context.get_help())
 

@@ -8,7 +8,7 @@ import typer
 
 from ..question import read_form
 from ..units import read_angle
-from ._app import app, compiling_shown, print_page, save_picture
+from ._app import app, compiling_shown, help_if_alone, print_page, save_picture
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -25,9 +25,12 @@ export = typer.Typer(
 app.add_typer(export)
 
 
-@export.callback(epilog="\b\nExample:\n  pendular export yade --contact-angle 20 --out tables")
-def _start() -> None:
+@export.callback(
+    invoke_without_command=True, epilog="\b\nExample:\n  pendular export yade --contact-angle 20 --out tables"
+)
+def _start(context: typer.Context) -> None:
     """Bridges for particle codes: the files that they read."""
+    help_if_alone(context)
 
 
 @export.command(
