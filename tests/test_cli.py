@@ -65,7 +65,7 @@ def rows_of(text: str) -> list[dict[str, str]]:
 def test_the_table_of_a_bridge_tells_force_and_rupture_distance(answer):
     table = answer(*STATE)
     b = pl.bridge(PAIR, 1e-6, suction=20e3, liquid=WATER)
-    assert "Two 50 µm spheres, contact angle 20°" in table
+    assert "Two spheres of radius 50 µm, contact angle 20°" in table
     assert "water at 20 °C, 72.74 mN/m  ·  suction 20 kPa" in table
     assert re.search(rf"^force +{1e6 * b.force:.5g} µN ", table, re.MULTILINE)
     assert re.search(r"^rupture distance +3.3132 µm ", table, re.MULTILINE)
@@ -155,6 +155,8 @@ def test_solids_that_hold_no_bridge_apart(answer):
         (("--contact-angle", "20"), ("--contact-angle", f"{math.radians(20)!r} rad")),
         (("--radius2", "inf"), ("--radius2", "plane")),
         (("--radius2", "50um"), ("--radius2", "0.05 mm")),
+        (("--radius2", "inf"), ("--diameter2", "plane")),
+        (("--radius2", "5um"), ("--diameter2", "10um")),
         (("--contact-angle2", "20"), ("--liquid", "water", "--temperature", "293.15K")),
         (("--temperature", "77degF"), ("--temperature", "25 °C")),
         (("--surface-tension", "72.8mN/m"), ("--surface-tension", "72.8 dyn/cm")),
@@ -162,6 +164,23 @@ def test_solids_that_hold_no_bridge_apart(answer):
 )
 def test_several_ways_to_say_the_same(answer, one, other):
     assert answer(*STATE, *one, "--csv") == answer(*STATE, *other, "--csv")
+
+
+def test_a_diameter_is_twice_the_radius(answer):
+    sizes = (("--radius", "50um"), ("--radius", "50um", "--radius2", "20um"), ("--radius2", "plane", "--radius", "3um"))
+    twice = (("--diameter", "0.1mm"), ("--diameter", "100um", "--radius2", "20um"))
+    for one, other in zip(sizes, (*twice, ("--diameter", "6um", "--diameter2", "plane")), strict=True):
+        assert answer("rupture", *one, "--suction", "5kPa") == answer("rupture", *other, "--suction", "5kPa")
+
+
+def test_the_title_calls_a_radius_a_radius(answer):
+    for sizes, title in (
+        (("--diameter", "100um"), "Two spheres of radius 50 µm"),
+        (("--diameter", "100um", "--diameter2", "20um"), "Spheres of radius 50 µm and 10 µm"),
+        (("--diameter", "100um", "--radius2", "plane"), "Sphere of radius 50 µm on a plate"),
+        (("--radius", "plane", "--diameter2", "100um"), "Plate and sphere of radius 50 µm"),
+    ):
+        assert answer("rupture", *sizes, "--suction", "5kPa").startswith(f"{title}, contact angle 0°\n")
 
 
 def test_humidity_and_its_suction_give_the_same_force(run):
@@ -208,15 +227,21 @@ AT_1_UM = ("--separation", "1um")
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("--radius", "-50um"), "radius: -5e-05 m is not > 0"),
-        (("--radius", "0um"), "radius: 0.0 m is not > 0"),
+        (("--radius", "-50um"), "radius: '-50um' is not > 0; write it like 50um"),
+        (("--radius", "0um"), "radius: '0um' is not > 0; write it like 50um"),
         (("--radius", "50"), "radius: '50' has no unit; write it like 50um"),
         (("--radius", "50foo"), "radius: '50foo' has the unknown unit 'foo'; write it like 50um"),
         (("--radius", "50N"), "radius: '50N' is not a quantity in m; write it like 50um"),
         (("--radius", "wide"), "radius: 'wide' does not begin with a number; write it like 50um"),
-        (("--radius", "nan um"), "radius: nan m is not a number"),
+        (("--radius", "nan um"), "radius: 'nan um' is not > 0; write it like 50um"),
         (("--radius", "inf"), "radius: inf and inf are two planes; one of the two radii must be finite"),
-        (("--radius2", "-5um"), "radius2: -5e-06 m is not > 0"),
+        (("--radius2", "-5um"), "radius2: '-5um' is not > 0; write it like 50um"),
+        (("--diameter", "100um"), "diameter: given together with radius; one of the two is needed"),
+        (
+            ("--radius2", "5um", "--diameter2", "9um"),
+            "diameter2: given together with radius2; one of the two is needed",
+        ),
+        (("--diameter2", "-5um"), "diameter2: '-5um' is not > 0; write it like 100um"),
         (("--contact-angle", "180"), "contact-angle: 180 deg is not in [0, 180)"),
         (("--contact-angle", "nan"), "contact-angle: nan deg is not in [0, 180)"),
         (("--contact-angle2", "4rad"), "contact-angle2: 229.1831181 deg is not in [0, 180)"),

@@ -25,7 +25,7 @@ _ROOM_TEMPERATURE = "20degC"
 _FREEZING_POINT = 273.15  # 0 °C, [K]
 
 # Where the library calls an argument otherwise than the option, and what it advises to a programmer.
-_OPTIONS = {"radius[0]": "radius", "radius[1]": "radius2", "surface_tension": "surface-tension", "name": "liquid"}
+_OPTIONS = {"surface_tension": "surface-tension", "name": "liquid"}
 _ADVICE = re.compile(r"; give (it|its numbers) to Liquid\(\.\.\.\)")
 
 
@@ -79,8 +79,10 @@ def _text(help_text: str, kind: str) -> Any:
 
 
 def read_question(
-    radius: Annotated[str, _text("Radius of both solids, or of the first: 50um.", "LENGTH")],
-    radius2: Annotated[str | None, _text("Radius of the second solid: 5um, or plane.", "LENGTH")] = None,
+    radius: Annotated[str | None, _text("Radius of both solids, or of the first: 50um,", "LENGTH")] = None,
+    diameter: Annotated[str | None, _text("or the diameter: 100um.", "LENGTH")] = None,
+    radius2: Annotated[str | None, _text("Radius of the second solid, if another: 5um, or plane,", "LENGTH")] = None,
+    diameter2: Annotated[str | None, _text("or its diameter: 10um.", "LENGTH")] = None,
     contact_angle: Annotated[str, _text("Contact angle: 20 or 20deg, 0.35rad.", "ANGLE")] = "0",
     contact_angle2: Annotated[str | None, _text("Contact angle on the second solid, if another: 60.", "ANGLE")] = None,
     suction: Annotated[str | None, _text("Held constant: gas minus liquid pressure, 20kPa,", "PRESSURE")] = None,
@@ -99,7 +101,7 @@ def read_question(
     from .bridges import Pair
 
     form = read_form(as_json, as_csv, plot)
-    radii = _radius("radius", radius), _radius("radius2", radius2 or radius)
+    radii = _radii(radius, diameter, radius2, diameter2)
     degrees = _degrees("contact-angle", contact_angle), _degrees("contact-angle2", contact_angle2 or contact_angle)
     control = _control(suction, volume, humidity)
     if humidity is not None and surface_tension is not None:
@@ -121,8 +123,8 @@ def in_terms_of_options(message: str) -> str:
 
     Examples
     --------
-    >>> in_terms_of_options("radius[1]: -1.0 m is not > 0")
-    'radius2: -1.0 m is not > 0'
+    >>> in_terms_of_options("surface_tension: 0.0 N/m is not > 0")
+    'surface-tension: 0.0 N/m is not > 0'
     """
     name, colon, reason = message.partition(": ")
     return _OPTIONS.get(name, name) + colon + _ADVICE.sub("", reason)
@@ -140,8 +142,29 @@ def read_form(as_json: bool, as_csv: bool, plot: Path | None) -> str:
     return "json" if as_json else "csv" if as_csv else "table"
 
 
-def _radius(name: str, text: str) -> float:
-    return math.inf if text.strip().lower() in _PLANE else read(name, text, "m", "50um")
+def _radii(radius: str | None, diameter: str | None, radius2: str | None, diameter2: str | None) -> tuple[float, float]:
+    """Radii of both solids, [m], each from whichever of its two sizes is given; the second is as the first without."""
+    first, second = _radius(radius, diameter, ""), _radius(radius2, diameter2, "2")
+    if first is None:
+        raise ValueError("radius: missing; write --radius 50um, or --diameter 100um")
+    return first, first if second is None else second
+
+
+def _radius(radius: str | None, diameter: str | None, ending: str) -> float | None:
+    if radius is not None and diameter is not None:
+        raise ValueError(f"diameter{ending}: given together with radius{ending}; one of the two is needed")
+    if diameter is not None:
+        return 0.5 * _size(f"diameter{ending}", diameter, "100um")
+    return None if radius is None else _size(f"radius{ending}", radius, "50um")
+
+
+def _size(name: str, text: str, example: str) -> float:
+    if text.strip().lower() in _PLANE:
+        return math.inf
+    size = read(name, text, "m", example)
+    if not size > 0.0:
+        raise ValueError(f"{name}: {text!r} is not > 0; write it like {example}")
+    return size
 
 
 def _degrees(name: str, text: str) -> float:
@@ -179,13 +202,13 @@ def _describe_solids(radii: tuple[float, float], degrees: tuple[float, float]) -
     first, second = (f"{angle:.4g}°" for angle in degrees)
     angles = f"contact angle {first}" if first == second else f"contact angles {first} and {second}"
     if math.isinf(radii[0]):
-        solids = f"Plate and {show(radii[1], 'm', 4)} sphere"
+        solids = f"Plate and sphere of radius {show(radii[1], 'm', 4)}"
     elif math.isinf(radii[1]):
-        solids = f"{show(radii[0], 'm', 4)} sphere on a plate"
+        solids = f"Sphere of radius {show(radii[0], 'm', 4)} on a plate"
     elif radii[0] == radii[1]:
-        solids = f"Two {show(radii[0], 'm', 4)} spheres"
+        solids = f"Two spheres of radius {show(radii[0], 'm', 4)}"
     else:
-        solids = f"Spheres of {show(radii[0], 'm', 4)} and {show(radii[1], 'm', 4)}"
+        solids = f"Spheres of radius {show(radii[0], 'm', 4)} and {show(radii[1], 'm', 4)}"
     return f"{solids}, {angles}"
 
 

@@ -100,15 +100,13 @@ def question_command(
 ) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Make a command of a function of a question and of options of its own, with all shared options before them.
 
-    The function of a command with other uses is given the shared options as they are, to be read if it needs them;
-    then none of them is required. A command that writes a file, of a group of commands, has no form of the answer.
+    The function of a command with other uses is given the shared options as they are, to be read if it needs them. A
+    command that writes a file, of a group of commands, has no form of the answer.
     """
 
     def register(answer: Callable[..., None]) -> Callable[..., None]:
         shared = dict(inspect.signature(read_question).parameters)
         own = list(inspect.signature(answer).parameters.values())[1:]
-        if has_other_uses:
-            shared["radius"] = shared["radius"].replace(default=None)
         if to_file_of is not None:
             shared = {name: option for name, option in shared.items() if name not in _FORMS}
         name = answer.__name__.replace("_", "-")
