@@ -145,6 +145,136 @@ def test_solids_that_hold_no_bridge_apart(answer):
     assert parsed(answer("rupture", *dry, "--json"))["separation"] is None
 
 
+# -- sweeps ----------------------------------------------------------------------------------------------------------
+
+
+def test_a_sweep_of_the_separation_has_a_row_for_each_point(answer):
+    rows = rows_of(answer("bridge", *SUCTION, "--separation", "0:8um:5", "--csv"))
+    gaps = np.array([0.0, 2e-6, 4e-6, 6e-6, 8e-6])
+    b = pl.bridge(PAIR, gaps, suction=20e3, liquid=WATER)
+    assert [float(row["separation [m]"]) for row in rows] == gaps.tolist()  # where there is no bridge, too
+    assert [float(row["force [N]"]) for row in rows] == b.force.tolist()
+    assert [row["exists"] == "true" for row in rows] == b.exists.tolist() == [True, True, False, False, False]
+    end = pl.rupture(PAIR, suction=20e3, liquid=WATER).separation
+    assert {float(row["rupture_separation [m]"]) for row in rows} == {end}
+
+
+def test_the_json_of_a_sweep_has_lists_of_one_length(answer):
+    found = parsed(answer("bridge", *GRAINS, "--volume", "1:5pL:3", "--separation", "1um", "--json"))
+    b = pl.bridge(PAIR, 1e-6, volume=[1e-15, 3e-15, 5e-15], liquid=WATER)
+    for name in ("separation", "volume", "force", "contact_radius", "stable"):
+        assert np.array_equal(found[name], getattr(b, name))
+    ends = pl.rupture(PAIR, volume=[1e-15, 3e-15, 5e-15], liquid=WATER).separation
+    assert found["rupture_separation"] == ends.tolist()
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        ("0:2um:3", "0um,1um,2um"),
+        ("0um:2um:3", "0um,1um,2um"),
+        ("0um:2:3", "0um,1um,2um"),
+        (" 0 : 2000 nm : 3 ", "0um, 1um, 2um"),
+        ("2um:0:3", "2um,1um,0um"),
+        ("-1um:1um:3", "-1um,0um,1um"),
+        ("0:10um", "0um,1um,2um,3um,4um,5um,6um,7um,8um,9um,10um"),
+    ],
+)
+def test_several_ways_to_write_a_sweep(answer, one, other):
+    asked = ("bridge", *SUCTION, "--csv", "--separation")
+    assert answer(*asked, one) == answer(*asked, other)
+
+
+def test_separation_and_control_go_side_by_side(answer):
+    rows = rows_of(answer("bridge", *GRAINS, "--suction", "1kPa,5kPa", "--separation", "1um,3um", "--csv"))
+    b = pl.bridge(PAIR, [1e-6, 3e-6], suction=[1e3, 5e3], liquid=WATER)
+    assert [float(row["force [N]"]) for row in rows] == b.force.tolist()
+
+
+def test_a_sweep_of_humidity_tells_the_humidity(run):
+    asked = ("bridge", *GRAINS, "--separation", "100nm", "--humidity", "98%:99.8%:3")
+    rows = rows_of(run(*asked, "--csv")[1])
+    assert [float(row["humidity"]) for row in rows] == [0.98, 0.989, 0.998]
+    assert [row["exists"] for row in rows] == ["false", "false", "true"]
+    assert parsed(run(*asked, "--json")[1])["humidity"] == [0.98, 0.989, 0.998]
+    assert run(*asked)[1].splitlines()[3].startswith("humidity   separation   rupture distance ")
+
+
+def test_rupture_distances_of_a_sweep(answer):
+    held = [125e-18, 1e-15]
+    asked = ("rupture", "--radius", "50um", "--contact-angle", "40", "--volume", "125um^3,1pL")
+    pair = pl.Pair(50e-6, math.radians(40))
+    fold = pl.rupture(pair, volume=held, liquid=WATER).separation
+    first = pl.rupture(pair, volume=held, liquid=WATER, limit="stability").separation
+    rows = rows_of(answer(*asked, "--csv"))
+    assert [float(row["separation [m]"]) for row in rows] == fold.tolist()
+    assert [float(row["stability_separation [m]"]) for row in rows] == first.tolist()
+    assert parsed(answer(*asked, "--json"))["stability_separation"] == first.tolist()
+    assert re.search(r"^ +6.7922 +6.6793 ", answer(*asked), re.MULTILINE)
+
+
+def test_the_table_of_a_sweep_tells_where_there_is_no_bridge(answer):
+    table = answer("bridge", *SUCTION, "--separation", "0:8um:3")
+    assert re.search(r"^separation +rupture distance +force +volume .* bridge *$", table, re.MULTILINE)
+    assert re.search(r"^ +0 +3.3132 +\S+ .* stable *$", table, re.MULTILINE)
+    assert re.search(r"^ +4 +3.3132 +0 +– +20 +– +none *$", table, re.MULTILINE)
+
+
+def test_a_sweep_of_the_separation_is_drawn_as_the_curve(answer, tmp_path):
+    answer("bridge", *SUCTION, "--separation", "0:3um", "--plot", str(tmp_path / "sweep.svg"))
+    answer("curve", *SUCTION, "--plot", str(tmp_path / "curve.svg"))
+    assert (tmp_path / "sweep.svg").read_bytes() == (tmp_path / "curve.svg").read_bytes()
+
+
+_NO_FORM = "is neither a value, 1um, nor a sweep, first:last:points, 0:8um:5, nor a list, 1um,2um,5um"
+
+
+@pytest.mark.parametrize(
+    ("separation", "message"),
+    [
+        *((text, f"{text!r} {_NO_FORM}") for text in (":", "0:8um:", "0:8um:5:2", "1um,", "1um,2um:3um", ":8um")),
+        *(
+            (f"0:8um:{n}", f"'{n}' in '0:8um:{n}' is not a number of points from 2 to 100000; write it like 0:8um:5")
+            for n in ("1", "5.5", "-3", "few", "100001")
+        ),
+        ("0:8", "'8' has no unit; write it like 1um"),
+        ("0:8foo", "'8foo' has the unknown unit 'foo'; write it like 1um"),
+        ("0:8kPa", "'8kPa' is not a quantity in m; write it like 1um"),
+        ("0,5um", "'0' in '0,5um' has no unit; write a list like 1um,2um,5um, and decimals with a point"),
+        ("wide:8um", "'wide' does not begin with a number; write it like 1um"),
+    ],
+)
+def test_a_bad_sweep_is_one_line_and_status_2(run, separation, message):
+    assert run("bridge", *SUCTION, "--separation", separation) == (2, "", f"pendular: separation: {message}\n")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (
+            ("bridge", "--suction", "1:9kPa:3", "--separation", "0:8um:5"),
+            "separation: 5 values beside 3 of suction; sweeps go side by side and need as many",
+        ),
+        (
+            ("curve", "--suction", "1:9kPa:3"),
+            "suction: 3 values are given where one is needed; bridge and rupture take a sweep",
+        ),
+        (
+            ("compare", "--volume", "1pL,2pL"),
+            "volume: 2 values are given where one is needed; bridge and rupture take a sweep",
+        ),
+        (("rupture", "--humidity", "50:90%"), "humidity: '50:90%' has a % at one end only; write it like 50%:90%:5"),
+        (("rupture", "--humidity", "0,9"), "humidity: '9' is above 1; write it like 90% or 0.9"),
+        (
+            ("rupture", "--suction", "1:9kPa:3", "--plot", "a.svg"),
+            "plot: draws the bridges of one suction, not of a sweep of it",
+        ),
+    ],
+)
+def test_a_sweep_in_the_wrong_place_is_one_line_and_status_2(run, arguments, message):
+    assert run(arguments[0], *GRAINS, *arguments[1:]) == (2, "", f"pendular: {message}\n")
+
+
 # -- questions -------------------------------------------------------------------------------------------------------
 
 
@@ -364,11 +494,13 @@ def test_a_group_alone_shows_its_help(answer, arguments):
 def test_the_example_in_each_help_works(run, tmp_path, monkeypatch, arguments):
     monkeypatch.chdir(tmp_path)
     _, text, _ = run(*arguments, "--help")
-    (example,) = re.findall(r"^ +pendular (.+)$", text, re.MULTILINE)
-    status, output, _ = run(*shlex.split(example))
-    assert status == 0
-    assert output
-    assert [path.name for path in Path().iterdir()] == (["bridge.svg"] if "--plot" in example else [])
+    examples = re.findall(r"^ +pendular (.+)$", text, re.MULTILINE)
+    assert examples
+    for example in examples:
+        status, output, _ = run(*shlex.split(example))
+        assert status == 0
+        assert output
+    assert [path.name for path in Path().iterdir()] == (["bridge.svg"] if "--plot" in text.split("Example:")[1] else [])
 
 
 def test_dataset_writes_a_store_and_tells_what_it_holds(run, tmp_path):

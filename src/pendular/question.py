@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from typer import Option
 
-from .units import read, read_angle, read_fraction, show
+from .units import Forms, Values, read, read_angle, read_fractions, read_values, show
 
 # NumPy and all that needs it are imported by those who use it: the help is shown without.
 if TYPE_CHECKING:
@@ -18,11 +18,18 @@ if TYPE_CHECKING:
     from .bridges import Bridge, Pair
     from .liquid import Liquid
 
-__all__ = ["Question", "in_terms_of_options", "read_form", "read_question"]
+__all__ = ["SEPARATIONS", "Question", "in_terms_of_options", "read_form", "read_question", "sweep_length"]
+
+SEPARATIONS = Forms("1um", "0:8um:5", "1um,2um,5um")
+_SUCTIONS = Forms("20kPa", "1:20kPa:5", "1kPa,5kPa,20kPa")
+_VOLUMES = Forms("5pL", "1:5pL:5", "1pL,2pL,5pL")
+_HUMIDITIES = Forms("90%", "50%:90%:5", "50%,80%,90%")
 
 _PLANE = ("inf", "plane", "plate")
 _ROOM_TEMPERATURE = "20degC"
 _FREEZING_POINT = 273.15  # 0 °C, [K]
+
+_CONTROL_WORDS = {"humidity": "relative humidity"}
 
 # Where the library calls an argument otherwise than the option, and what it advises to a programmer.
 _OPTIONS = {"surface_tension": "surface-tension", "name": "liquid"}
@@ -34,7 +41,7 @@ class Question(NamedTuple):
 
     pair: "Pair"
     liquid: "Liquid"
-    control: dict[str, float]  # suction, volume or humidity, and its SI value
+    control: dict[str, Values]  # suction, volume or humidity, and its SI value, or those of a sweep
     title: str
     subtitle: str
     form: str  # of the answer: table, json or csv
@@ -43,6 +50,22 @@ class Question(NamedTuple):
     def put_to(self, function: "Callable[..., Bridge]", *args: "ArrayLike", **options: Any) -> "Bridge":
         """Ask one of the three functions of the library."""
         return function(self.pair, *args, **self.control, liquid=self.liquid, **options)
+
+    @property
+    def held(self) -> dict[str, float]:
+        """The control with its one value; ValueError for a sweep."""
+        one = {}
+        for name, values in self.control.items():
+            if isinstance(values, list):
+                raise ValueError(
+                    f"{name}: {len(values)} values are given where one is needed; bridge and rupture take a sweep"
+                )
+            one[name] = values
+        return one
+
+    def of_one_value(self) -> "Question":
+        """Return itself, where a sweep of the control has no answer; ValueError for one."""
+        return self._replace(control=dict(self.held))
 
     def instability(self, end: "Bridge") -> "Bridge | None":
         """Where the bridge loses its stability, if that is before the fold `end`: at constant volume only."""
@@ -118,6 +141,27 @@ def read_question(
     )
 
 
+def sweep_length(**values: Values) -> int | None:
+    """Number of points of all the sweeps among some options; None without a sweep.
+
+    Raises
+    ------
+    ValueError
+        If two of them differ.
+
+    Examples
+    --------
+    >>> sweep_length(separation=[0.0, 1e-6, 2e-6], suction=2e4)
+    3
+    """
+    lengths = {name: len(several) for name, several in values.items() if isinstance(several, list)}
+    if len(set(lengths.values())) > 1:
+        (name, length), *others = lengths.items()
+        told = " and ".join(f"{other} of {another}" for another, other in others)
+        raise ValueError(f"{name}: {length} values beside {told}; sweeps go side by side and need as many")
+    return next(iter(lengths.values()), None)
+
+
 def in_terms_of_options(message: str) -> str:
     """Message of the library as one who knows only the options understands it.
 
@@ -174,15 +218,15 @@ def _degrees(name: str, text: str) -> float:
     return degrees
 
 
-def _control(suction: str | None, volume: str | None, humidity: str | None) -> dict[str, float]:
+def _control(suction: str | None, volume: str | None, humidity: str | None) -> dict[str, Values]:
     """Read what is held constant; that it is one thing is for the library to say."""
-    control = {}
+    control: dict[str, Values] = {}
     if suction is not None:
-        control["suction"] = read("suction", suction, "Pa", "20kPa")
+        control["suction"] = read_values("suction", suction, "Pa", _SUCTIONS)
     if volume is not None:
-        control["volume"] = read("volume", volume, "m^3", "5pL")
+        control["volume"] = read_values("volume", volume, "m^3", _VOLUMES)
     if humidity is not None:
-        control["humidity"] = read_fraction("humidity", humidity)
+        control["humidity"] = read_fractions("humidity", humidity, _HUMIDITIES)
     return control
 
 
@@ -219,9 +263,16 @@ def _describe_liquid(liquid: "Liquid") -> str:
     return f"{liquid.name} at {liquid.temperature - _FREEZING_POINT:.4g} °C, {tension}"
 
 
-def _describe_control(control: dict[str, float]) -> str:
-    units = {"suction": "Pa", "volume": "m^3"}
+def _describe_control(control: dict[str, Values]) -> str:
     return " and ".join(
-        f"{name} {show(value, units[name])}" if name in units else f"relative humidity {100.0 * value:.6g} %"
-        for name, value in control.items()
+        f"{_CONTROL_WORDS.get(name, name)} {_one_of_control(name, values)}"
+        if not isinstance(values, list)
+        else f"{len(values)} values of {_CONTROL_WORDS.get(name, name)}, "
+        f"{_one_of_control(name, values[0])} to {_one_of_control(name, values[-1])}"
+        for name, values in control.items()
     )
+
+
+def _one_of_control(name: str, value: float) -> str:
+    units = {"suction": "Pa", "volume": "m^3"}
+    return show(value, units[name]) if name in units else f"{100.0 * value:.6g} %"

@@ -96,10 +96,15 @@ def help_if_alone(context: typer.Context) -> None:
 
 
 def question_command(
-    example: str, *, has_other_uses: bool = False, to_file_of: typer.Typer | None = None
+    example: str,
+    *,
+    takes_sweeps: bool = False,
+    has_other_uses: bool = False,
+    to_file_of: typer.Typer | None = None,
 ) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Make a command of a function of a question and of options of its own, with all shared options before them.
 
+    Without ``takes_sweeps`` the question has one value of its control.
     The function of a command with other uses is given the shared options as they are, to be read if it needs them. A
     command that writes a file, of a group of commands, has no form of the answer.
     """
@@ -112,10 +117,14 @@ def question_command(
         name = answer.__name__.replace("_", "-")
         group, path = (app, name) if to_file_of is None else (to_file_of, f"{to_file_of.info.name} {name}")
 
+        def asked(options: dict[str, Any]) -> Question:
+            question = read_question(**options)
+            return question if takes_sweeps else question.of_one_value()
+
         def command(**given: Any) -> None:
             options = {option: given.pop(option) for option in shared}
             with _warnings_in_one_line(), compiling_shown():
-                answer(options if has_other_uses else read_question(**options), **given)
+                answer(options if has_other_uses else asked(options), **given)
 
         parameters = [p.replace(kind=p.KEYWORD_ONLY) for p in (*shared.values(), *own)]
         command.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]

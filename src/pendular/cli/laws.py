@@ -133,7 +133,7 @@ def _show_comparison(shared: dict[str, Any]) -> None:
     from ..comparison import compare, plots, tables
     from ..report import csv_text, json_text
 
-    question = read_question(**shared)
+    question = read_question(**shared).of_one_value()
     held: dict[str, Any] = {**question.control}
     found = compare(question.pair, **held, liquid=question.liquid)
     if question.picture is not None:
