@@ -445,7 +445,8 @@ def test_bad_pairs_are_refused(radius, angle, message):
         ({"humidity": math.nan}, "humidity: nan is not a number"),
         (
             {"humidity": 0.9, "liquid": LIQUID},
-            "liquid: it lacks density, molar_mass, temperature, needed for humidity; give it to Liquid(...)",
+            "liquid: it lacks density and molar_mass (or molar_volume), temperature, needed for humidity; "
+            "give it to Liquid(...)",
         ),
         ({"suction": 1e4, "liquid": "water"}, "liquid: 'water' is not a pendular.Liquid"),
     ],

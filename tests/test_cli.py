@@ -323,6 +323,20 @@ def test_humidity_and_its_suction_give_the_same_force(run):
     assert parsed(output)["force"] == pytest.approx(parsed(again[1])["force"], rel=1e-12)
 
 
+def test_a_measured_surface_tension_beside_the_name_of_the_liquid(run):
+    asked = ("rupture", "--radius", "10um", "--humidity", "95%", "--temperature", "25degC")
+    soapy = pl.Liquid.water(298.15, surface_tension=0.0523)
+    expected = pl.rupture(pl.Pair(10e-6), humidity=0.95, liquid=soapy)
+    _, output, _ = run(*asked, "--liquid", "water", "--surface-tension", "52.3mN/m", "--json")
+    assert parsed(output)["separation"] == expected.separation
+    volume = f"{soapy.molar_mass / soapy.density!r} m^3/mol"
+    measured = ("--surface-tension", "52.3mN/m", "--molar-volume", volume)
+    for more in ((), ("--liquid", "water")):
+        _, output, _ = run(*asked, *measured, *more, "--json")
+        assert parsed(output)["separation"] == pytest.approx(expected.separation, rel=1e-14)
+    assert "\nliquid at 25 °C, 52.3 mN/m  ·  relative humidity 95 %\n" in run(*asked, *measured)[1]
+
+
 def test_a_warning_is_one_line_on_stderr(run):
     status, output, errors = run("bridge", *GRAINS, "--humidity", "50%", "--separation", "0nm")
     assert status == 0
@@ -379,14 +393,23 @@ AT_1_UM = ("--separation", "1um")
         (("--suction", "inf Pa"), "suction: inf Pa is not finite"),
         (("--volume", "5pL"), "control: suction and volume given; exactly one of suction, volume, humidity is needed"),
         (("--liquid", "watr"), "liquid: 'watr' is not a known liquid; did you mean water?"),
-        (("--liquid", "unobtainium"), "liquid: 'unobtainium' is not a known liquid"),
+        (
+            ("--liquid", "unobtainium"),
+            "liquid: 'unobtainium' is not a known liquid; give surface-tension in place of the name",
+        ),
+        (
+            ("--liquid", "PDMS"),
+            "liquid: 'PDMS' is a polymer, of which there are no data; give surface-tension in place of the name",
+        ),
+        (("--liquid", "sucrose"), "liquid: no surface tension is known for sucrose; give surface-tension as well"),
         (("--temperature", "20kPa"), "temperature: '20kPa' is not a quantity in K; write it like 20degC"),
         (("--temperature", "-10degC"), "temperature: 263.15 K is not in [273.15, 647.096)"),
         (("--surface-tension", "0mN/m"), "surface-tension: 0.0 N/m is not > 0"),
         (
-            ("--surface-tension", "72.8mN/m", "--liquid", "water"),
-            "liquid: has no effect beside surface-tension; give one of the two",
+            ("--surface-tension", "72.8mN/m", "--temperature", "25degC"),
+            "temperature: has no effect beside surface-tension; give one of the two",
         ),
+        (("--molar-volume", "18cm^3/mol"), "molar-volume: has no effect without humidity"),
         (("--branch", "thick"), "branch: 'thick' is not one of 'stable', 'unstable'"),
         (("--plot", "bridge.gif"), "plot: 'bridge.gif' does not end in one of .svg, .png, .pdf"),
         (("--plot", "no/such/folder.svg"), "plot: 'no/such/folder.svg' cannot be written: No such file or directory"),
@@ -407,7 +430,20 @@ def test_bad_input_is_one_line_and_status_2(run, arguments, message):
         (("--humidity", "90kPa"), "humidity: '90kPa' is not a pure number; write it like 90% or 0.9"),
         (
             ("--humidity", "90%", "--surface-tension", "72.8mN/m"),
-            "surface-tension: not enough for humidity, which needs the density of a liquid given by name",
+            "surface-tension: not enough for humidity; name the liquid as well, or write its molar-volume, like "
+            "18cm^3/mol",
+        ),
+        (
+            ("--humidity", "90%", "--molar-volume", "18cm^3/mol"),
+            "surface-tension: missing beside molar-volume; write it like 72.8mN/m, or name the liquid",
+        ),
+        (
+            ("--humidity", "90%", "--molar-volume", "18cm^3", "--liquid", "water"),
+            "molar-volume: '18cm^3' is not a quantity in m^3/mol; write it like 18cm^3/mol",
+        ),
+        (
+            ("--humidity", "90%", "--liquid", "squalane"),
+            "liquid: squalane lacks density (or molar_volume), needed for humidity; give molar-volume as well",
         ),
         (("--volume", "-5pL"), "volume: -5e-15 m^3 is not > 0"),
         (

@@ -1,7 +1,6 @@
 """The options that all commands share, read into what they ask: a pair, a liquid, and what is held constant."""
 
 import math
-import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
@@ -32,8 +31,12 @@ _FREEZING_POINT = 273.15  # 0 °C, [K]
 _CONTROL_WORDS = {"humidity": "relative humidity"}
 
 # Where the library calls an argument otherwise than the option, and what it advises to a programmer.
-_OPTIONS = {"surface_tension": "surface-tension", "name": "liquid"}
-_ADVICE = re.compile(r"; give (it|its numbers) to Liquid\(\.\.\.\)")
+_OPTIONS = {"surface_tension": "surface-tension", "molar_volume": "molar-volume", "name": "liquid"}
+_ADVICE = {
+    "make Liquid(surface_tension=...)": "give surface-tension in place of the name",
+    "pass surface_tension=...": "give surface-tension as well",
+    "give it to Liquid(...)": "give molar-volume as well",
+}
 
 
 class Question(NamedTuple):
@@ -113,7 +116,12 @@ def read_question(
     humidity: Annotated[str | None, _text("or relative humidity, 90% or 0.9.", "FRACTION")] = None,
     liquid: Annotated[str | None, _text("Liquid: ethanol; if not given, water.", "NAME")] = None,
     temperature: Annotated[str | None, _text("Of the liquid: 25degC; if not given, 20degC.", "TEMPERATURE")] = None,
-    surface_tension: Annotated[str | None, _text("Instead of the name of a liquid: 72.8mN/m.", "TENSION")] = None,
+    surface_tension: Annotated[
+        str | None, _text("Measured, of that liquid or of one without a name: 72.8mN/m.", "TENSION")
+    ] = None,
+    molar_volume: Annotated[
+        str | None, _text("For humidity, of a liquid without a name: 18cm^3/mol.", "MOLAR VOLUME")
+    ] = None,
     as_json: Annotated[bool, Option("--json", help="Print JSON, in SI units.")] = False,
     as_csv: Annotated[bool, Option("--csv", help="Print CSV, in SI units.")] = False,
     plot: Annotated[
@@ -127,9 +135,7 @@ def read_question(
     radii = _radii(radius, diameter, radius2, diameter2)
     degrees = _degrees("contact-angle", contact_angle), _degrees("contact-angle2", contact_angle2 or contact_angle)
     control = _control(suction, volume, humidity)
-    if humidity is not None and surface_tension is not None:
-        raise ValueError("surface-tension: not enough for humidity, which needs the density of a liquid given by name")
-    wetting = _liquid(liquid, temperature, surface_tension)
+    wetting = _liquid(liquid, temperature, surface_tension, molar_volume, is_humid=humidity is not None)
     return Question(
         pair=Pair(radii, (math.radians(degrees[0]), math.radians(degrees[1]))),
         liquid=wetting,
@@ -171,7 +177,9 @@ def in_terms_of_options(message: str) -> str:
     'surface-tension: 0.0 N/m is not > 0'
     """
     name, colon, reason = message.partition(": ")
-    return _OPTIONS.get(name, name) + colon + _ADVICE.sub("", reason)
+    for to_programmers, to_all in _ADVICE.items():
+        reason = reason.replace(to_programmers, to_all)
+    return _OPTIONS.get(name, name) + colon + reason
 
 
 def read_form(as_json: bool, as_csv: bool, plot: Path | None) -> str:
@@ -230,16 +238,42 @@ def _control(suction: str | None, volume: str | None, humidity: str | None) -> d
     return control
 
 
-def _liquid(name: str | None, temperature: str | None, surface_tension: str | None) -> "Liquid":
+def _liquid(
+    name: str | None, temperature: str | None, surface_tension: str | None, molar_volume: str | None, *, is_humid: bool
+) -> "Liquid":
+    """Liquid by its name, with measured numbers in the place of known ones; or of measured numbers alone."""
     from .liquid import Liquid
 
-    if surface_tension is None:
-        kelvin = read("temperature", temperature or _ROOM_TEMPERATURE, "K", _ROOM_TEMPERATURE)
-        return Liquid.water(kelvin) if name in (None, "water") else Liquid.named(str(name), kelvin)
-    if name is not None or temperature is not None:
-        unwanted = "temperature" if name is None else "liquid"
-        raise ValueError(f"{unwanted}: has no effect beside surface-tension; give one of the two")
-    return Liquid(surface_tension=read("surface-tension", surface_tension, "N/m", "72.8mN/m"))
+    tension = None if surface_tension is None else read("surface-tension", surface_tension, "N/m", "72.8mN/m")
+    kelvin = read("temperature", temperature or _ROOM_TEMPERATURE, "K", _ROOM_TEMPERATURE)
+    if molar_volume is not None and not is_humid:
+        raise ValueError("molar-volume: has no effect without humidity")
+    volume = None if molar_volume is None else read("molar-volume", molar_volume, "m^3/mol", "18cm^3/mol")
+    if name is None and (tension is not None or volume is not None):
+        if volume is None and temperature is not None and not is_humid:
+            raise ValueError("temperature: has no effect beside surface-tension; give one of the two")
+        return _nameless(tension, volume, kelvin, is_humid=is_humid)
+    if name in (None, "water"):
+        found = Liquid.water(kelvin, surface_tension=tension)
+    else:
+        found = Liquid.named(str(name), kelvin, surface_tension=tension)
+    if volume is None:
+        return found
+    return Liquid(found.surface_tension, temperature=found.temperature, name=found.name, molar_volume=volume)
+
+
+def _nameless(tension: float | None, volume: float | None, kelvin: float, *, is_humid: bool) -> "Liquid":
+    """Liquid of measured numbers, of which humidity needs more than any other control."""
+    from .liquid import Liquid
+
+    if tension is None:
+        raise ValueError("surface-tension: missing beside molar-volume; write it like 72.8mN/m, or name the liquid")
+    if volume is None and is_humid:
+        raise ValueError(
+            "surface-tension: not enough for humidity; name the liquid as well, or write its molar-volume, "
+            "like 18cm^3/mol"
+        )
+    return Liquid(tension, temperature=None if volume is None else kelvin, molar_volume=volume)
 
 
 def _describe_solids(radii: tuple[float, float], degrees: tuple[float, float]) -> str:
@@ -260,7 +294,7 @@ def _describe_liquid(liquid: "Liquid") -> str:
     tension = show(liquid.surface_tension, "N/m", 4)
     if liquid.temperature is None:
         return f"surface tension {tension}"
-    return f"{liquid.name} at {liquid.temperature - _FREEZING_POINT:.4g} °C, {tension}"
+    return f"{liquid.name or 'liquid'} at {liquid.temperature - _FREEZING_POINT:.4g} °C, {tension}"
 
 
 def _describe_control(control: dict[str, Values]) -> str:
