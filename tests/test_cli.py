@@ -264,7 +264,7 @@ def test_a_bad_sweep_is_one_line_and_status_2(run, separation, message):
             "volume: 2 values are given where one is needed; bridge and rupture take a sweep",
         ),
         (("rupture", "--humidity", "50:90%"), "humidity: '50:90%' has a % at one end only; write it like 50%:90%:5"),
-        (("rupture", "--humidity", "0,9"), "humidity: '9' is above 1; write it like 90% or 0.9"),
+        (("rupture", "--humidity", "0,9"), "humidity: '9' is above 1; per cent have their sign, 9%"),
         (
             ("rupture", "--suction", "1:9kPa:3", "--plot", "a.svg"),
             "plot: draws the bridges of one suction, not of a sweep of it",
@@ -366,6 +366,9 @@ def test_every_command_draws(answer, tmp_path, command):
 # -- bad input -------------------------------------------------------------------------------------------------------
 
 AT_1_UM = ("--separation", "1um")
+_NO_ANGLE = "is not in [0, 180) degrees; write it like 20, 20deg or 0.35rad"
+_ONE_CONTROL = "write one of --suction 20kPa, --volume 5pL, --humidity 90%"
+_HUMIDITY = "; 50 % are 0.5, and saturation is a suction of 0"
 
 
 @pytest.mark.parametrize(
@@ -386,12 +389,13 @@ AT_1_UM = ("--separation", "1um")
             "diameter2: given together with radius2; one of the two is needed",
         ),
         (("--diameter2", "-5um"), "diameter2: '-5um' is not > 0; write it like 100um"),
-        (("--contact-angle", "180"), "contact-angle: 180 deg is not in [0, 180)"),
-        (("--contact-angle", "nan"), "contact-angle: nan deg is not in [0, 180)"),
-        (("--contact-angle2", "4rad"), "contact-angle2: 229.1831181 deg is not in [0, 180)"),
+        (("--contact-angle", "180"), f"contact-angle: '180' {_NO_ANGLE}"),
+        (("--contact-angle", "-5deg"), f"contact-angle: '-5deg' {_NO_ANGLE}"),
+        (("--contact-angle", "nan"), f"contact-angle: 'nan' {_NO_ANGLE}"),
+        (("--contact-angle2", "4rad"), f"contact-angle2: '4rad' {_NO_ANGLE}"),
         (("--suction", "20"), "suction: '20' has no unit; write it like 20kPa"),
         (("--suction", "inf Pa"), "suction: inf Pa is not finite"),
-        (("--volume", "5pL"), "control: suction and volume given; exactly one of suction, volume, humidity is needed"),
+        (("--volume", "5pL"), f"control: suction and volume given; {_ONE_CONTROL}"),
         (("--liquid", "watr"), "liquid: 'watr' is not a known liquid; did you mean water?"),
         (
             ("--liquid", "unobtainium"),
@@ -423,10 +427,12 @@ def test_bad_input_is_one_line_and_status_2(run, arguments, message):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ((), "control: none given; exactly one of suction, volume, humidity is needed"),
-        (("--humidity", "120%"), "humidity: 1.2 is not in (0, 1)"),
+        ((), f"control: none given; {_ONE_CONTROL}"),
+        (("--humidity", "120%"), f"humidity: 1.2 is not in (0, 1){_HUMIDITY}"),
+        (("--humidity", "1"), f"humidity: 1.0 is not in (0, 1){_HUMIDITY}"),
         (("--humidity", "0"), "humidity: 0.0 is not in (0, 1)"),
-        (("--humidity", "90"), "humidity: '90' is above 1; write it like 90% or 0.9"),
+        (("--humidity", "90"), "humidity: '90' is above 1; per cent have their sign, 90%"),
+        (("--humidity", "900"), "humidity: '900' is above 1; write it like 90% or 0.9"),
         (("--humidity", "90kPa"), "humidity: '90kPa' is not a pure number; write it like 90% or 0.9"),
         (
             ("--humidity", "90%", "--surface-tension", "72.8mN/m"),
@@ -459,7 +465,11 @@ def test_bad_control_is_one_line_and_status_2(run, arguments, message):
 @pytest.mark.parametrize(
     ("arguments", "part"),
     [
-        (("bridge", *SUCTION), "--separation"),
+        (("bridge", *SUCTION), "separation: missing; gap from surface to surface: 1um;"),
+        (("dataset",), "path: missing; zarr store to write, or to continue: bridges.zarr"),
+        (("dataset", "a.zarr", "--contact-angle", "200"), f"contact-angle: '200' {_NO_ANGLE}"),
+        (("export", "c", "--contact-angle", "200", "--out", "b.h"), f"contact-angle: '200' {_NO_ANGLE}"),
+        (("export", "c", "--out", "b.h"), "contact-angle: missing; contact angle: 20 or 20deg, 0.35rad"),
         (("bridge", *AT_1_UM, "--suction", "1kPa"), "--radius"),
         ((*STATE, "--radis", "50um"), "--radis"),
         (("brigde", *SUCTION), "brigde"),

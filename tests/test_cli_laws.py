@@ -166,7 +166,10 @@ def test_pictures_are_written(answer, tmp_path, arguments):
     ("arguments", "message"),
     [
         (("compare", "--volume", "1pL"), "radius: missing; write --radius 50um, or --diameter 100um"),
-        (("compare", "--radius", "50um"), "control: none given; exactly one of suction, volume, humidity is needed"),
+        (
+            ("compare", "--radius", "50um"),
+            "control: none given; write one of --suction 20kPa, --volume 5pL, --humidity 90%",
+        ),
         ((*GRAINS, "--fraction", "0.5"), "fraction: has no effect without map"),
         ((*GRAINS, "--up-to", "0.5"), "up-to: has no effect without recommend"),
         ((*GRAINS, "--map", "zhao2020"), "radius: has no effect beside map"),
@@ -176,7 +179,7 @@ def test_pictures_are_written(answer, tmp_path, arguments):
         ((*RANKED, "--up-to", "1"), "up_to: 1.0 is not in [0, 1)"),
         (
             ("compare", "--recommend"),
-            "control: exactly one of reduced_suction and reduced_volume is needed, none is given",
+            "control: exactly one of reduced-suction and reduced-volume is needed, none is given",
         ),
         (("compare", "--map", "zhao2020", "--plot", "x.gif"), "plot: 'x.gif' does not end in one of .svg, .png, .pdf"),
     ],

@@ -122,7 +122,8 @@ def test_water_gas_constant_is_that_of_the_paper():
 @pytest.mark.parametrize(
     ("temperature", "message"),
     [
-        (20.0, "temperature: 20.0 K is not in [273.15, 647.096)"),
+        (20.0, "temperature: 20.0 K is not in [273.15, 647.096); 20 degrees Celsius are 293.15 K"),
+        (253.15, "temperature: 253.15 K is not in [273.15, 647.096)"),
         (647.096, "temperature: 647.096 K is not in [273.15, 647.096)"),
         (math.nan, "temperature: nan K is not a number"),
         ([280.0, 290.0], "temperature: an array of shape (2,) is given where one number is needed"),
@@ -325,7 +326,9 @@ def test_temperatures_outside_the_data_are_refused(name, temperature, message):
 @pytest.mark.parametrize("name", [row[0] for row in AT_20_CELSIUS])
 def test_no_value_is_extrapolated(name):
     for temperature in (1.0, 5000.0):
-        with pytest.raises(ValueError, match=r"^temperature of .+ K is not in \[.+\)$"):
+        with pytest.raises(
+            ValueError, match=r"^temperature of .+ K is not in \[.+\)(; 20 degrees Celsius are 293.15 K)?$"
+        ):
             Liquid.named(name, temperature)
 
 
@@ -427,8 +430,8 @@ def test_temperature_may_be_given_once():
 @pytest.mark.parametrize(
     ("humidity", "message"),
     [
-        (1.2, "humidity: 1.2 is not in (0, 1)"),
-        ([0.5, 1.0], "humidity[1]: 1.0 is not in (0, 1)"),
+        (1.2, "humidity: 1.2 is not in (0, 1); 50 % are 0.5, and saturation is a suction of 0"),
+        ([0.5, 1.0], "humidity[1]: 1.0 is not in (0, 1); 50 % are 0.5, and saturation is a suction of 0"),
         (0.0, "humidity: 0.0 is not in (0, 1)"),
         (math.nan, "humidity: nan is not a number"),
         ("90 %", "humidity: '90 %' is not a real number"),

@@ -47,6 +47,8 @@ WATER_CAS = "7732-18-5"
 TRUSTED_METHODS = ("REFPROP", "VDI_PPDS")
 
 
+_HOTTEST_IN_CELSIUS = 100.0  # of what is likely to have been typed
+
 _OPTIONAL_UNITS = {"density": "kg/m**3", "molar_mass": "kg/mol", "temperature": "K", "molar_volume": "m**3/mol"}
 
 _CAS_NUMBER = re.compile(r"\d{2,7}-\d\d-\d")
@@ -172,13 +174,8 @@ class Liquid:
         """
         from chemicals import iapws, sigma_IAPWS
 
-        kelvin = in_range(
-            "temperature",
-            scalar("temperature", temperature, "K"),
-            WATER_FREEZING_POINT,
-            iapws.iapws95_Tc,
-            brackets="[)",
-            unit="K",
+        kelvin = _in_kelvin(
+            "temperature", scalar("temperature", temperature, "K"), WATER_FREEZING_POINT, iapws.iapws95_Tc
         )
         return cls(
             surface_tension=sigma_IAPWS(kelvin) if surface_tension is None else surface_tension,
@@ -289,7 +286,8 @@ def suction_from_humidity(
     >>> print(f"{suction_from_humidity(0.9, Liquid.water()):.4g} Pa")
     1.423e+07 Pa
     """
-    h = in_range("humidity", quantity("humidity", humidity, ""), 0.0, 1.0, brackets="()")
+    hint = "50 % are 0.5, and saturation is a suction of 0"
+    h = in_range("humidity", quantity("humidity", humidity, ""), 0.0, 1.0, brackets="()", high_hint=hint)
     # log loses nothing near h = 1: h itself is exact input there, and log is correct to its last digit.
     return -_kelvin_pressure(liquid, temperature) * np.log(h)
 
@@ -384,6 +382,12 @@ def warn_kelvin(curvature_radius: ArrayLike, relative_force_change: ArrayLike, s
 
 def _positive(name: str, value: object, unit: str) -> float:
     return in_range(name, scalar(name, value, unit), 0.0, brackets="()", unit=unit)
+
+
+def _in_kelvin(name: str, kelvin: float, low: float, high: float) -> float:
+    """Temperature in a range, where a low one was rather meant in degrees Celsius."""
+    hint = "20 degrees Celsius are 293.15 K" if kelvin <= _HOTTEST_IN_CELSIUS else ""
+    return in_range(name, kelvin, low, high, brackets="[)", unit="K", low_hint=hint)
 
 
 def _kelvin_pressure(liquid: Liquid, temperature: float | None) -> float:
@@ -495,7 +499,7 @@ def _surface_tension(chemical: Any, kelvin: float) -> float:
     if method is None:
         raise ValueError(f"name: no surface tension is known for {chemical.common_name}; pass surface_tension=...")
     low, high = data.T_limits[method]  # the upper end is often the critical point, where it vanishes
-    in_range(f"temperature of {chemical.common_name}", kelvin, low, high, brackets="[)", unit="K")
+    _in_kelvin(f"temperature of {chemical.common_name}", kelvin, low, high)
     return float(data.calculate(kelvin, method))
 
 

@@ -67,6 +67,20 @@ class Pair:
         return mean
 
 
+def check_pair(pair: object) -> None:
+    """Refuse what is not a pair, such as a radius alone.
+
+    Examples
+    --------
+    >>> check_pair(50e-6)
+    Traceback (most recent call last):
+        ...
+    ValueError: pair: 5e-05 is not a pendular.Pair; write Pair(radius) or Pair(radius, contact_angle)
+    """
+    if not isinstance(pair, Pair):
+        raise ValueError(f"pair: {pair!r} is not a pendular.Pair; write Pair(radius) or Pair(radius, contact_angle)")
+
+
 def _per_solid(name: str, value: PerSolid, check: Callable[[str, object], Floats]) -> tuple[Floats, Floats]:
     """Check a value that belongs to each solid: a tuple gives the two apart."""
     if not isinstance(value, tuple):

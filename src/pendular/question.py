@@ -17,7 +17,15 @@ if TYPE_CHECKING:
     from .bridges import Bridge, Pair
     from .liquid import Liquid
 
-__all__ = ["SEPARATIONS", "Question", "in_terms_of_options", "read_form", "read_question", "sweep_length"]
+__all__ = [
+    "SEPARATIONS",
+    "Question",
+    "in_terms_of_options",
+    "read_contact_angle",
+    "read_form",
+    "read_question",
+    "sweep_length",
+]
 
 SEPARATIONS = Forms("1um", "0:8um:5", "1um,2um,5um")
 _SUCTIONS = Forms("20kPa", "1:20kPa:5", "1kPa,5kPa,20kPa")
@@ -36,6 +44,10 @@ _ADVICE = {
     "make Liquid(surface_tension=...)": "give surface-tension in place of the name",
     "pass surface_tension=...": "give surface-tension as well",
     "give it to Liquid(...)": "give molar-volume as well",
+    "exactly one of suction, volume, humidity is needed": (
+        "write one of --suction 20kPa, --volume 5pL, --humidity 90%"
+    ),
+    "reduced_suction and reduced_volume": "reduced-suction and reduced-volume",
 }
 
 
@@ -133,7 +145,10 @@ def read_question(
 
     form = read_form(as_json, as_csv, plot)
     radii = _radii(radius, diameter, radius2, diameter2)
-    degrees = _degrees("contact-angle", contact_angle), _degrees("contact-angle2", contact_angle2 or contact_angle)
+    degrees = (
+        read_contact_angle("contact-angle", contact_angle),
+        read_contact_angle("contact-angle2", contact_angle2 or contact_angle),
+    )
     control = _control(suction, volume, humidity)
     wetting = _liquid(liquid, temperature, surface_tension, molar_volume, is_humid=humidity is not None)
     return Question(
@@ -219,10 +234,19 @@ def _size(name: str, text: str, example: str) -> float:
     return size
 
 
-def _degrees(name: str, text: str) -> float:
+def read_contact_angle(name: str, text: str) -> float:
+    """Contact angle in degrees, in [0, 180).
+
+    Examples
+    --------
+    >>> read_contact_angle("contact-angle", "4rad")
+    Traceback (most recent call last):
+        ...
+    ValueError: contact-angle: '4rad' is not in [0, 180) degrees; write it like 20, 20deg or 0.35rad
+    """
     degrees = read_angle(name, text)
     if not 0.0 <= degrees < 180.0:
-        raise ValueError(f"{name}: {degrees:.10g} deg is not in [0, 180)")
+        raise ValueError(f"{name}: {text!r} is not in [0, 180) degrees; write it like 20, 20deg or 0.35rad")
     return degrees
 
 

@@ -121,7 +121,8 @@ def read_fraction(name: str, text: str) -> float:
     if own_unit not in ("", "%"):
         raise ValueError(f"{name}: {text!r} is not a pure number; write it like 90% or 0.9")
     if not own_unit and number > 1.0:
-        raise ValueError(f"{name}: {text!r} is above 1; write it like 90% or 0.9")
+        instead = f"per cent have their sign, {text.strip()}%" if number < 100.0 else "write it like 90% or 0.9"
+        raise ValueError(f"{name}: {text!r} is above 1; {instead}")
     return number / 100.0 if own_unit else number
 
 

@@ -60,9 +60,18 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except Exception as error:
         if not hasattr(error, "format_message"):  # what the option parser raises has it, whichever package holds it
             raise
-        _complain(error.format_message())
+        _complain(_what_is_missing(error) or error.format_message())
         sys.exit(_BAD_INPUT)
     sys.exit(status or 0)
+
+
+def _what_is_missing(error: Any) -> str:
+    """What an option that was not given is and how it is written, by its help; empty for any other error."""
+    option = getattr(error, "param", None)
+    if option is None or not type(error).__name__.startswith("Missing"):
+        return ""
+    name = max(option.opts, key=len).lstrip("-")
+    return f"{name}: missing; {option.help[:1].lower()}{option.help[1:].removesuffix('.')}"
 
 
 def _complain(message: str) -> None:
