@@ -407,7 +407,7 @@ def test_results_do_not_depend_on_the_threads(threads, control, count, branch):
         (
             50e-6,
             (0.1, math.pi),
-            f"contact_angle[1]: {math.pi} rad is not in [0, pi); for degrees use numpy.deg2rad({math.pi})",
+            f"contact_angle[1]: {math.pi} rad is not in [0, pi)",
         ),
         (50e-6, math.nan, "contact_angle: nan rad is not a number"),
         (50e-6, math.inf, "contact_angle: inf rad is not finite"),
@@ -440,20 +440,30 @@ def test_bad_pairs_are_refused(radius, angle, message):
         ({"volume": math.inf}, "volume: inf m**3 is not finite"),
         ({"volume": 1e-3}, "volume: 0.001 m^3 is not in (0, 3.14159e-12): a drop of that size encloses the solids"),
         ({"humidity": 0.0}, "humidity: 0.0 is not in (0, 1)"),
-        ({"humidity": 1.0}, "humidity: 1.0 is not in (0, 1)"),
-        ({"humidity": 90.0}, "humidity: 90.0 is not in (0, 1)"),
+        ({"humidity": 1.0}, "humidity: 1.0 is not in (0, 1); 50 % are 0.5, and saturation is a suction of 0"),
+        ({"humidity": 90.0}, "humidity: 90.0 is not in (0, 1); 50 % are 0.5, and saturation is a suction of 0"),
         ({"humidity": math.nan}, "humidity: nan is not a number"),
         (
             {"humidity": 0.9, "liquid": LIQUID},
-            "liquid: it lacks density, molar_mass, temperature, needed for humidity; give it to Liquid(...)",
+            "liquid: it lacks density and molar_mass (or molar_volume), temperature, needed for humidity; "
+            "give it to Liquid(...)",
         ),
-        ({"suction": 1e4, "liquid": "water"}, "liquid: 'water' is not a pendular.Liquid"),
+        (
+            {"suction": 1e4, "liquid": "water"},
+            "liquid: 'water' is not a pendular.Liquid; write Liquid.water() or Liquid.named(name)",
+        ),
     ],
 )
 @pytest.mark.parametrize("ask", [pl.rupture, pl.curve, lambda pair, **given: pl.bridge(pair, 0.0, **given)])
 def test_bad_controls_are_refused(ask, arguments, message):
     with refused(message):
         ask(GRAINS, **{"liquid": WATER, **arguments})
+
+
+@pytest.mark.parametrize("ask", [pl.rupture, pl.curve, pl.compare, lambda pair, **given: pl.bridge(pair, 0.0, **given)])
+def test_a_radius_alone_is_no_pair(ask):
+    with refused("pair: 5e-05 is not a pendular.Pair; write Pair(radius) or Pair(radius, contact_angle)"):
+        ask(50e-6, suction=1e4, liquid=WATER)
 
 
 @pytest.mark.parametrize(

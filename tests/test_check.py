@@ -125,6 +125,8 @@ def test_scalar_is_a_float_and_takes_no_array():
         (("x", np.array([0.5, 1.0, 3.0]), 0.0, 1.0), {"brackets": "[)"}, "x[1]: 1.0 is not in [0, 1)"),
         (("x", np.array([[0.5, 7.0]]), 0.0, 1.0), {}, "x[0, 1]: 7.0 is not in [0, 1]"),
         (("x", math.nan, 0.0, 1.0), {}, "x: nan is not in [0, 1]"),
+        (("x", 2.0, 0.0, 1.0), {"high_hint": "not {value}", "low_hint": "more"}, "x: 2.0 is not in [0, 1]; not 2.0"),
+        (("x", -2.0, 0.0, 1.0), {"high_hint": "less", "low_hint": "more"}, "x: -2.0 is not in [0, 1]; more"),
     ],
 )
 def test_values_outside_an_interval_are_named(arguments, options, message):
@@ -144,6 +146,8 @@ def test_values_inside_pass_unchanged():
         (20.0, "contact_angle: 20.0 rad is not in [0, pi); for degrees use numpy.deg2rad(20.0)"),
         ([0.1, 40.0], "contact_angle[1]: 40.0 rad is not in [0, pi); for degrees use numpy.deg2rad(40.0)"),
         (-0.1, "contact_angle: -0.1 rad is not in [0, pi)"),
+        (math.pi, f"contact_angle: {math.pi} rad is not in [0, pi)"),
+        (180.0, "contact_angle: 180.0 rad is not in [0, pi)"),
     ],
 )
 def test_angles_outside_zero_to_pi_are_refused(value, message):

@@ -12,10 +12,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.main import get_command
 
 import pendular as pl
 from pendular.bridges import FIELDS
-from pendular.cli import main
+from pendular.cli import app, main
 
 GRAINS = ("--radius", "50um", "--contact-angle", "20")
 SUCTION = (*GRAINS, "--suction", "20kPa")
@@ -64,7 +65,7 @@ def rows_of(text: str) -> list[dict[str, str]]:
 def test_the_table_of_a_bridge_tells_force_and_rupture_distance(answer):
     table = answer(*STATE)
     b = pl.bridge(PAIR, 1e-6, suction=20e3, liquid=WATER)
-    assert "Two 50 µm spheres, contact angle 20°" in table
+    assert "Two spheres of radius 50 µm, contact angle 20°" in table
     assert "water at 20 °C, 72.74 mN/m  ·  suction 20 kPa" in table
     assert re.search(rf"^force +{1e6 * b.force:.5g} µN ", table, re.MULTILINE)
     assert re.search(r"^rupture distance +3.3132 µm ", table, re.MULTILINE)
@@ -100,6 +101,12 @@ def test_beyond_rupture_there_is_no_bridge_and_no_error(answer):
 def test_the_unstable_branch(answer):
     found = parsed(answer(*STATE, "--branch", "unstable", "--json"))
     assert found["force"] == pl.bridge(PAIR, 1e-6, suction=20e3, liquid=WATER, branch="unstable").force
+
+
+def test_without_a_contact_angle_the_liquid_wets_all(answer):
+    found = parsed(answer("rupture", "--radius", "50um", "--suction", "20kPa", "--json"))
+    assert found["separation"] == pl.rupture(pl.Pair(50e-6), suction=20e3, liquid=WATER).separation
+    assert pl.rupture(pl.Pair(50e-6, 0.0), suction=20e3, liquid=WATER).separation == found["separation"]
 
 
 def test_rupture_under_suction_has_no_earlier_limit(answer):
@@ -138,6 +145,136 @@ def test_solids_that_hold_no_bridge_apart(answer):
     assert parsed(answer("rupture", *dry, "--json"))["separation"] is None
 
 
+# -- sweeps ----------------------------------------------------------------------------------------------------------
+
+
+def test_a_sweep_of_the_separation_has_a_row_for_each_point(answer):
+    rows = rows_of(answer("bridge", *SUCTION, "--separation", "0:8um:5", "--csv"))
+    gaps = np.array([0.0, 2e-6, 4e-6, 6e-6, 8e-6])
+    b = pl.bridge(PAIR, gaps, suction=20e3, liquid=WATER)
+    assert [float(row["separation [m]"]) for row in rows] == gaps.tolist()  # where there is no bridge, too
+    assert [float(row["force [N]"]) for row in rows] == b.force.tolist()
+    assert [row["exists"] == "true" for row in rows] == b.exists.tolist() == [True, True, False, False, False]
+    end = pl.rupture(PAIR, suction=20e3, liquid=WATER).separation
+    assert {float(row["rupture_separation [m]"]) for row in rows} == {end}
+
+
+def test_the_json_of_a_sweep_has_lists_of_one_length(answer):
+    found = parsed(answer("bridge", *GRAINS, "--volume", "1:5pL:3", "--separation", "1um", "--json"))
+    b = pl.bridge(PAIR, 1e-6, volume=[1e-15, 3e-15, 5e-15], liquid=WATER)
+    for name in ("separation", "volume", "force", "contact_radius", "stable"):
+        assert np.array_equal(found[name], getattr(b, name))
+    ends = pl.rupture(PAIR, volume=[1e-15, 3e-15, 5e-15], liquid=WATER).separation
+    assert found["rupture_separation"] == ends.tolist()
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        ("0:2um:3", "0um,1um,2um"),
+        ("0um:2um:3", "0um,1um,2um"),
+        ("0um:2:3", "0um,1um,2um"),
+        (" 0 : 2000 nm : 3 ", "0um, 1um, 2um"),
+        ("2um:0:3", "2um,1um,0um"),
+        ("-1um:1um:3", "-1um,0um,1um"),
+        ("0:10um", "0um,1um,2um,3um,4um,5um,6um,7um,8um,9um,10um"),
+    ],
+)
+def test_several_ways_to_write_a_sweep(answer, one, other):
+    asked = ("bridge", *SUCTION, "--csv", "--separation")
+    assert answer(*asked, one) == answer(*asked, other)
+
+
+def test_separation_and_control_go_side_by_side(answer):
+    rows = rows_of(answer("bridge", *GRAINS, "--suction", "1kPa,5kPa", "--separation", "1um,3um", "--csv"))
+    b = pl.bridge(PAIR, [1e-6, 3e-6], suction=[1e3, 5e3], liquid=WATER)
+    assert [float(row["force [N]"]) for row in rows] == b.force.tolist()
+
+
+def test_a_sweep_of_humidity_tells_the_humidity(run):
+    asked = ("bridge", *GRAINS, "--separation", "100nm", "--humidity", "98%:99.8%:3")
+    rows = rows_of(run(*asked, "--csv")[1])
+    assert [float(row["humidity"]) for row in rows] == [0.98, 0.989, 0.998]
+    assert [row["exists"] for row in rows] == ["false", "false", "true"]
+    assert parsed(run(*asked, "--json")[1])["humidity"] == [0.98, 0.989, 0.998]
+    assert run(*asked)[1].splitlines()[3].startswith("humidity   separation   rupture distance ")
+
+
+def test_rupture_distances_of_a_sweep(answer):
+    held = [125e-18, 1e-15]
+    asked = ("rupture", "--radius", "50um", "--contact-angle", "40", "--volume", "125um^3,1pL")
+    pair = pl.Pair(50e-6, math.radians(40))
+    fold = pl.rupture(pair, volume=held, liquid=WATER).separation
+    first = pl.rupture(pair, volume=held, liquid=WATER, limit="stability").separation
+    rows = rows_of(answer(*asked, "--csv"))
+    assert [float(row["separation [m]"]) for row in rows] == fold.tolist()
+    assert [float(row["stability_separation [m]"]) for row in rows] == first.tolist()
+    assert parsed(answer(*asked, "--json"))["stability_separation"] == first.tolist()
+    assert re.search(r"^ +6.7922 +6.6793 ", answer(*asked), re.MULTILINE)
+
+
+def test_the_table_of_a_sweep_tells_where_there_is_no_bridge(answer):
+    table = answer("bridge", *SUCTION, "--separation", "0:8um:3")
+    assert re.search(r"^separation +rupture distance +force +volume .* bridge *$", table, re.MULTILINE)
+    assert re.search(r"^ +0 +3.3132 +\S+ .* stable *$", table, re.MULTILINE)
+    assert re.search(r"^ +4 +3.3132 +0 +– +20 +– +none *$", table, re.MULTILINE)
+
+
+def test_a_sweep_of_the_separation_is_drawn_as_the_curve(answer, tmp_path):
+    answer("bridge", *SUCTION, "--separation", "0:3um", "--plot", str(tmp_path / "sweep.svg"))
+    answer("curve", *SUCTION, "--plot", str(tmp_path / "curve.svg"))
+    assert (tmp_path / "sweep.svg").read_bytes() == (tmp_path / "curve.svg").read_bytes()
+
+
+_NO_FORM = "is neither a value, 1um, nor a sweep, first:last:points, 0:8um:5, nor a list, 1um,2um,5um"
+
+
+@pytest.mark.parametrize(
+    ("separation", "message"),
+    [
+        *((text, f"{text!r} {_NO_FORM}") for text in (":", "0:8um:", "0:8um:5:2", "1um,", "1um,2um:3um", ":8um")),
+        *(
+            (f"0:8um:{n}", f"'{n}' in '0:8um:{n}' is not a number of points from 2 to 100000; write it like 0:8um:5")
+            for n in ("1", "5.5", "-3", "few", "100001")
+        ),
+        ("0:8", "'8' has no unit; write it like 1um"),
+        ("0:8foo", "'8foo' has the unknown unit 'foo'; write it like 1um"),
+        ("0:8kPa", "'8kPa' is not a quantity in m; write it like 1um"),
+        ("0,5um", "'0' in '0,5um' has no unit; write a list like 1um,2um,5um, and decimals with a point"),
+        ("wide:8um", "'wide' does not begin with a number; write it like 1um"),
+    ],
+)
+def test_a_bad_sweep_is_one_line_and_status_2(run, separation, message):
+    assert run("bridge", *SUCTION, "--separation", separation) == (2, "", f"pendular: separation: {message}\n")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (
+            ("bridge", "--suction", "1:9kPa:3", "--separation", "0:8um:5"),
+            "separation: 5 values beside 3 of suction; sweeps go side by side and need as many",
+        ),
+        (
+            ("curve", "--suction", "1:9kPa:3"),
+            "suction: 3 values are given where one is needed; bridge and rupture take a sweep",
+        ),
+        (
+            ("compare", "--volume", "1pL,2pL"),
+            "volume: 2 values are given where one is needed; bridge and rupture take a sweep",
+        ),
+        (("rupture", "--humidity", "50:90%"), "humidity: '50:90%' has a % at one end only; write it like 50%:90%:5"),
+        (("rupture", "--humidity", "0,9"), "humidity: '9' is above 1; per cent have their sign, 9%"),
+        (
+            ("rupture", "--suction", "1:9kPa:3", "--plot", "a.svg"),
+            "plot: draws the bridges of one suction, not of a sweep of it",
+        ),
+    ],
+)
+def test_a_sweep_in_the_wrong_place_is_one_line_and_status_2(run, arguments, message):
+    assert run(arguments[0], *GRAINS, *arguments[1:]) == (2, "", f"pendular: {message}\n")
+
+
 # -- questions -------------------------------------------------------------------------------------------------------
 
 
@@ -148,6 +285,8 @@ def test_solids_that_hold_no_bridge_apart(answer):
         (("--contact-angle", "20"), ("--contact-angle", f"{math.radians(20)!r} rad")),
         (("--radius2", "inf"), ("--radius2", "plane")),
         (("--radius2", "50um"), ("--radius2", "0.05 mm")),
+        (("--radius2", "inf"), ("--diameter2", "plane")),
+        (("--radius2", "5um"), ("--diameter2", "10um")),
         (("--contact-angle2", "20"), ("--liquid", "water", "--temperature", "293.15K")),
         (("--temperature", "77degF"), ("--temperature", "25 °C")),
         (("--surface-tension", "72.8mN/m"), ("--surface-tension", "72.8 dyn/cm")),
@@ -155,6 +294,23 @@ def test_solids_that_hold_no_bridge_apart(answer):
 )
 def test_several_ways_to_say_the_same(answer, one, other):
     assert answer(*STATE, *one, "--csv") == answer(*STATE, *other, "--csv")
+
+
+def test_a_diameter_is_twice_the_radius(answer):
+    sizes = (("--radius", "50um"), ("--radius", "50um", "--radius2", "20um"), ("--radius2", "plane", "--radius", "3um"))
+    twice = (("--diameter", "0.1mm"), ("--diameter", "100um", "--radius2", "20um"))
+    for one, other in zip(sizes, (*twice, ("--diameter", "6um", "--diameter2", "plane")), strict=True):
+        assert answer("rupture", *one, "--suction", "5kPa") == answer("rupture", *other, "--suction", "5kPa")
+
+
+def test_the_title_calls_a_radius_a_radius(answer):
+    for sizes, title in (
+        (("--diameter", "100um"), "Two spheres of radius 50 µm"),
+        (("--diameter", "100um", "--diameter2", "20um"), "Spheres of radius 50 µm and 10 µm"),
+        (("--diameter", "100um", "--radius2", "plane"), "Sphere of radius 50 µm on a plate"),
+        (("--radius", "plane", "--diameter2", "100um"), "Plate and sphere of radius 50 µm"),
+    ):
+        assert answer("rupture", *sizes, "--suction", "5kPa").startswith(f"{title}, contact angle 0°\n")
 
 
 def test_humidity_and_its_suction_give_the_same_force(run):
@@ -165,6 +321,20 @@ def test_humidity_and_its_suction_give_the_same_force(run):
     again = run(*plate, "--suction", f"{pascals!r}Pa", "--temperature", "25degC")
     assert status == 0
     assert parsed(output)["force"] == pytest.approx(parsed(again[1])["force"], rel=1e-12)
+
+
+def test_a_measured_surface_tension_beside_the_name_of_the_liquid(run):
+    asked = ("rupture", "--radius", "10um", "--humidity", "95%", "--temperature", "25degC")
+    soapy = pl.Liquid.water(298.15, surface_tension=0.0523)
+    expected = pl.rupture(pl.Pair(10e-6), humidity=0.95, liquid=soapy)
+    _, output, _ = run(*asked, "--liquid", "water", "--surface-tension", "52.3mN/m", "--json")
+    assert parsed(output)["separation"] == expected.separation
+    volume = f"{soapy.molar_mass / soapy.density!r} m^3/mol"
+    measured = ("--surface-tension", "52.3mN/m", "--molar-volume", volume)
+    for more in ((), ("--liquid", "water")):
+        _, output, _ = run(*asked, *measured, *more, "--json")
+        assert parsed(output)["separation"] == pytest.approx(expected.separation, rel=1e-14)
+    assert "\nliquid at 25 °C, 52.3 mN/m  ·  relative humidity 95 %\n" in run(*asked, *measured)[1]
 
 
 def test_a_warning_is_one_line_on_stderr(run):
@@ -196,35 +366,54 @@ def test_every_command_draws(answer, tmp_path, command):
 # -- bad input -------------------------------------------------------------------------------------------------------
 
 AT_1_UM = ("--separation", "1um")
+_NO_ANGLE = "is not in [0, 180) degrees; write it like 20, 20deg or 0.35rad"
+_ONE_CONTROL = "write one of --suction 20kPa, --volume 5pL, --humidity 90%"
+_HUMIDITY = "; 50 % are 0.5, and saturation is a suction of 0"
 
 
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("--radius", "-50um"), "radius: -5e-05 m is not > 0"),
-        (("--radius", "0um"), "radius: 0.0 m is not > 0"),
+        (("--radius", "-50um"), "radius: '-50um' is not > 0; write it like 50um"),
+        (("--radius", "0um"), "radius: '0um' is not > 0; write it like 50um"),
         (("--radius", "50"), "radius: '50' has no unit; write it like 50um"),
         (("--radius", "50foo"), "radius: '50foo' has the unknown unit 'foo'; write it like 50um"),
         (("--radius", "50N"), "radius: '50N' is not a quantity in m; write it like 50um"),
         (("--radius", "wide"), "radius: 'wide' does not begin with a number; write it like 50um"),
-        (("--radius", "nan um"), "radius: nan m is not a number"),
+        (("--radius", "nan um"), "radius: 'nan um' is not > 0; write it like 50um"),
         (("--radius", "inf"), "radius: inf and inf are two planes; one of the two radii must be finite"),
-        (("--radius2", "-5um"), "radius2: -5e-06 m is not > 0"),
-        (("--contact-angle", "180"), "contact-angle: 180 deg is not in [0, 180)"),
-        (("--contact-angle", "nan"), "contact-angle: nan deg is not in [0, 180)"),
-        (("--contact-angle2", "4rad"), "contact-angle2: 229.1831181 deg is not in [0, 180)"),
+        (("--radius2", "-5um"), "radius2: '-5um' is not > 0; write it like 50um"),
+        (("--diameter", "100um"), "diameter: given together with radius; one of the two is needed"),
+        (
+            ("--radius2", "5um", "--diameter2", "9um"),
+            "diameter2: given together with radius2; one of the two is needed",
+        ),
+        (("--diameter2", "-5um"), "diameter2: '-5um' is not > 0; write it like 100um"),
+        (("--contact-angle", "180"), f"contact-angle: '180' {_NO_ANGLE}"),
+        (("--contact-angle", "-5deg"), f"contact-angle: '-5deg' {_NO_ANGLE}"),
+        (("--contact-angle", "nan"), f"contact-angle: 'nan' {_NO_ANGLE}"),
+        (("--contact-angle2", "4rad"), f"contact-angle2: '4rad' {_NO_ANGLE}"),
         (("--suction", "20"), "suction: '20' has no unit; write it like 20kPa"),
         (("--suction", "inf Pa"), "suction: inf Pa is not finite"),
-        (("--volume", "5pL"), "control: suction and volume given; exactly one of suction, volume, humidity is needed"),
+        (("--volume", "5pL"), f"control: suction and volume given; {_ONE_CONTROL}"),
         (("--liquid", "watr"), "liquid: 'watr' is not a known liquid; did you mean water?"),
-        (("--liquid", "unobtainium"), "liquid: 'unobtainium' is not a known liquid"),
+        (
+            ("--liquid", "unobtainium"),
+            "liquid: 'unobtainium' is not a known liquid; give surface-tension in place of the name",
+        ),
+        (
+            ("--liquid", "PDMS"),
+            "liquid: 'PDMS' is a polymer, of which there are no data; give surface-tension in place of the name",
+        ),
+        (("--liquid", "sucrose"), "liquid: no surface tension is known for sucrose; give surface-tension as well"),
         (("--temperature", "20kPa"), "temperature: '20kPa' is not a quantity in K; write it like 20degC"),
         (("--temperature", "-10degC"), "temperature: 263.15 K is not in [273.15, 647.096)"),
         (("--surface-tension", "0mN/m"), "surface-tension: 0.0 N/m is not > 0"),
         (
-            ("--surface-tension", "72.8mN/m", "--liquid", "water"),
-            "liquid: has no effect beside surface-tension; give one of the two",
+            ("--surface-tension", "72.8mN/m", "--temperature", "25degC"),
+            "temperature: has no effect beside surface-tension; give one of the two",
         ),
+        (("--molar-volume", "18cm^3/mol"), "molar-volume: has no effect without humidity"),
         (("--branch", "thick"), "branch: 'thick' is not one of 'stable', 'unstable'"),
         (("--plot", "bridge.gif"), "plot: 'bridge.gif' does not end in one of .svg, .png, .pdf"),
         (("--plot", "no/such/folder.svg"), "plot: 'no/such/folder.svg' cannot be written: No such file or directory"),
@@ -238,14 +427,29 @@ def test_bad_input_is_one_line_and_status_2(run, arguments, message):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ((), "control: none given; exactly one of suction, volume, humidity is needed"),
-        (("--humidity", "120%"), "humidity: 1.2 is not in (0, 1)"),
+        ((), f"control: none given; {_ONE_CONTROL}"),
+        (("--humidity", "120%"), f"humidity: 1.2 is not in (0, 1){_HUMIDITY}"),
+        (("--humidity", "1"), f"humidity: 1.0 is not in (0, 1){_HUMIDITY}"),
         (("--humidity", "0"), "humidity: 0.0 is not in (0, 1)"),
-        (("--humidity", "90"), "humidity: '90' is above 1; write it like 90% or 0.9"),
+        (("--humidity", "90"), "humidity: '90' is above 1; per cent have their sign, 90%"),
+        (("--humidity", "900"), "humidity: '900' is above 1; write it like 90% or 0.9"),
         (("--humidity", "90kPa"), "humidity: '90kPa' is not a pure number; write it like 90% or 0.9"),
         (
             ("--humidity", "90%", "--surface-tension", "72.8mN/m"),
-            "surface-tension: not enough for humidity, which needs the density of a liquid given by name",
+            "surface-tension: not enough for humidity; name the liquid as well, or write its molar-volume, like "
+            "18cm^3/mol",
+        ),
+        (
+            ("--humidity", "90%", "--molar-volume", "18cm^3/mol"),
+            "surface-tension: missing beside molar-volume; write it like 72.8mN/m, or name the liquid",
+        ),
+        (
+            ("--humidity", "90%", "--molar-volume", "18cm^3", "--liquid", "water"),
+            "molar-volume: '18cm^3' is not a quantity in m^3/mol; write it like 18cm^3/mol",
+        ),
+        (
+            ("--humidity", "90%", "--liquid", "squalane"),
+            "liquid: squalane lacks density (or molar_volume), needed for humidity; give molar-volume as well",
         ),
         (("--volume", "-5pL"), "volume: -5e-15 m^3 is not > 0"),
         (
@@ -261,7 +465,11 @@ def test_bad_control_is_one_line_and_status_2(run, arguments, message):
 @pytest.mark.parametrize(
     ("arguments", "part"),
     [
-        (("bridge", *SUCTION), "--separation"),
+        (("bridge", *SUCTION), "separation: missing; gap from surface to surface: 1um;"),
+        (("dataset",), "path: missing; zarr store to write, or to continue: bridges.zarr"),
+        (("dataset", "a.zarr", "--contact-angle", "200"), f"contact-angle: '200' {_NO_ANGLE}"),
+        (("export", "c", "--contact-angle", "200", "--out", "b.h"), f"contact-angle: '200' {_NO_ANGLE}"),
+        (("export", "c", "--out", "b.h"), "contact-angle: missing; contact angle: 20 or 20deg, 0.35rad"),
         (("bridge", *AT_1_UM, "--suction", "1kPa"), "--radius"),
         ((*STATE, "--radis", "50um"), "--radis"),
         (("brigde", *SUCTION), "brigde"),
@@ -286,7 +494,7 @@ def process(code: str) -> subprocess.CompletedProcess[str]:
 def test_help_imports_nothing_heavy():
     code = """
 import sys
-from pendular.cli import main
+from pendular.cli import app, main
 try:
     main(["--help"])
 finally:
@@ -305,20 +513,40 @@ def test_bad_input_ends_the_process_without_a_traceback():
 
 def test_version_and_help(answer):
     assert answer("--version") == f"pendular {pl.__version__}\n"
-    assert answer() == answer("--help")
     for command in ("bridge", "rupture", "curve"):
         assert command in answer("--help")
+
+
+def commands_of(group, path=()):
+    """Words of every command and group of commands, with those inside."""
+    yield path
+    for name, command in getattr(group, "commands", {}).items():
+        yield from commands_of(command, (*path, name))
+
+
+@pytest.mark.parametrize("arguments", list(commands_of(get_command(app))), ids=" ".join)
+def test_every_command_has_its_help_by_a_letter_too(answer, arguments):
+    text = answer(*arguments, "--help")
+    assert f"Usage: {' '.join(('pendular', *arguments))} " in text
+    assert answer(*arguments, "-h") == text
+
+
+@pytest.mark.parametrize("arguments", [(), ("export",)], ids=["pendular", "pendular export"])
+def test_a_group_alone_shows_its_help(answer, arguments):
+    assert answer(*arguments) == answer(*arguments, "--help")
 
 
 @pytest.mark.parametrize("arguments", [(), ("bridge",), ("rupture",), ("curve",)])
 def test_the_example_in_each_help_works(run, tmp_path, monkeypatch, arguments):
     monkeypatch.chdir(tmp_path)
     _, text, _ = run(*arguments, "--help")
-    (example,) = re.findall(r"^ +pendular (.+)$", text, re.MULTILINE)
-    status, output, _ = run(*shlex.split(example))
-    assert status == 0
-    assert output
-    assert [path.name for path in Path().iterdir()] == (["bridge.svg"] if "--plot" in example else [])
+    examples = re.findall(r"^ +pendular (.+)$", text, re.MULTILINE)
+    assert examples
+    for example in examples:
+        status, output, _ = run(*shlex.split(example))
+        assert status == 0
+        assert output
+    assert [path.name for path in Path().iterdir()] == (["bridge.svg"] if "--plot" in text.split("Example:")[1] else [])
 
 
 def test_dataset_writes_a_store_and_tells_what_it_holds(run, tmp_path):

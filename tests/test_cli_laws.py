@@ -102,7 +102,7 @@ def test_an_unknown_law_is_one_line(run):
 def test_the_table_of_a_pair_tells_the_errors(answer):
     text = answer(*GRAINS)
     found = pl.compare(PAIR, volume=1e-15, liquid=WATER)
-    assert "Two 50 µm spheres, contact angle 20°" in text
+    assert "Two spheres of radius 50 µm, contact angle 20°" in text
     for law in found.laws:
         assert re.search(rf"^{law.name} ", text, re.MULTILINE)
         assert ("by exact suction" in re.search(rf"^{law.name} .*", text, re.MULTILINE)[0]) == law.converted
@@ -165,8 +165,11 @@ def test_pictures_are_written(answer, tmp_path, arguments):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("compare", "--volume", "1pL"), "radius: missing; write it like 50um"),
-        (("compare", "--radius", "50um"), "control: none given; exactly one of suction, volume, humidity is needed"),
+        (("compare", "--volume", "1pL"), "radius: missing; write --radius 50um, or --diameter 100um"),
+        (
+            ("compare", "--radius", "50um"),
+            "control: none given; write one of --suction 20kPa, --volume 5pL, --humidity 90%",
+        ),
         ((*GRAINS, "--fraction", "0.5"), "fraction: has no effect without map"),
         ((*GRAINS, "--up-to", "0.5"), "up-to: has no effect without recommend"),
         ((*GRAINS, "--map", "zhao2020"), "radius: has no effect beside map"),
@@ -176,7 +179,7 @@ def test_pictures_are_written(answer, tmp_path, arguments):
         ((*RANKED, "--up-to", "1"), "up_to: 1.0 is not in [0, 1)"),
         (
             ("compare", "--recommend"),
-            "control: exactly one of reduced_suction and reduced_volume is needed, none is given",
+            "control: exactly one of reduced-suction and reduced-volume is needed, none is given",
         ),
         (("compare", "--map", "zhao2020", "--plot", "x.gif"), "plot: 'x.gif' does not end in one of .svg, .png, .pdf"),
     ],

@@ -1,8 +1,10 @@
 """Bridges in a running LAMMPS against exact bridges, against contact lists, and against conservation laws."""
 
+import re
 import shutil
 import subprocess
 import sys
+import warnings
 from pathlib import Path
 
 from mpi4py import MPI  # isort: skip  # noqa: F401  # before LAMMPS, which then finds the library
@@ -215,6 +217,32 @@ def test_a_change_of_suction(tables):
     with pytest.raises(ValueError, match=r"reduced suction: .* the range of the table"):
         coupling.control = 1e9
     assert coupling.control == 8e4
+
+
+WALL = "fix {} all wall/gran hooke 300 0 0 0 0 0 zplane 0 NULL"
+
+
+def told_of_walls(caught):
+    """Names and styles in the warnings, and the files that these point at."""
+    lines = [str(warning.message) for warning in caught]
+    assert all(line.endswith("a wall that is to be wet is made of grains") for line in lines)
+    return [re.match(r"wall: fix (.+) is dry: ", line)[1] for line in lines], {w.filename for w in caught}
+
+
+def test_walls_are_dry_and_said_to_be(tables):
+    lmp = two_grains((50e-6, 50e-6), 1e-6, changed=("boundary p p p", "boundary p p f"))
+    lmp.commands_string("fix move all nve/sphere\n" + WALL.format("floor") + "\n" + WALL.format("roof"))
+    with pytest.warns(UserWarning, match="is dry") as caught:
+        couple(lmp, tables["suction"], 2e4, TENSION)
+    assert told_of_walls(caught) == (["floor (wall/gran), roof (wall/gran)"], {__file__})
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        lmp.commands_string("run 1\nunfix roof\nrun 1")
+        lmp.command("fix hold all setforce NULL NULL NULL")
+    for style, later in (("wall/gran", WALL.format("roof")), ("wall/reflect", "fix edge all wall/reflect zlo EDGE")):
+        with pytest.warns(UserWarning, match="is dry") as caught:
+            lmp.command(later)
+        assert told_of_walls(caught) == ([f"{later.split()[1]} ({style})"], {__file__})
 
 
 def test_liquid_of_the_stores_is_conserved(tables):

@@ -49,6 +49,8 @@ def test_package_is_the_registry():
     assert pendular.laws["zhao2020"] is zhao2020.LAW
     assert dict(pendular.laws) == laws
     assert len(pendular.laws) == len(LAWS)
+    with pytest.raises(KeyError, match=r"law: 'zhao' is not one of zhao2020, toroidal2020, "):
+        pendular.laws["zhao"]
 
 
 @pytest.mark.parametrize("law", LAWS, ids=by_name)

@@ -13,7 +13,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pendular.liquid import KelvinWarning, Liquid, humidity_from_suction, suction_from_humidity, warn_kelvin
+from pendular.liquid import (
+    KelvinWarning,
+    Liquid,
+    _identify,
+    _tabulated,
+    humidity_from_suction,
+    suction_from_humidity,
+    warn_kelvin,
+)
 
 UNITS = pint.UnitRegistry()
 WATER = Liquid.water(293.15)
@@ -31,7 +39,7 @@ def refused(message: str):
 def test_surface_tension_alone_makes_a_liquid():
     liquid = Liquid(surface_tension=0.0728)
     assert liquid == Liquid(0.0728)
-    assert (liquid.density, liquid.molar_mass, liquid.temperature, liquid.name) == (None,) * 4
+    assert dataclasses.astuple(liquid)[1:] == (None,) * 5
 
 
 def test_a_liquid_is_frozen_and_hashable():
@@ -43,7 +51,7 @@ def test_a_liquid_is_frozen_and_hashable():
 def test_quantities_with_units_become_si_floats():
     liquid = Liquid(72.8 * UNITS.mN / UNITS.m, 1.0 * UNITS.g / UNITS.cm**3, temperature=UNITS.Quantity(20, "degC"))
     assert type(liquid.surface_tension) is float
-    assert dataclasses.astuple(liquid) == pytest.approx((0.0728, 1000.0, None, 293.15, None))
+    assert dataclasses.astuple(liquid) == pytest.approx((0.0728, 1000.0, None, 293.15, None, None))
 
 
 @pytest.mark.parametrize(
@@ -63,6 +71,11 @@ def test_quantities_with_units_become_si_floats():
         ({"surface_tension": 0.07, "density": -1.0}, "density: -1.0 kg/m**3 is not > 0"),
         ({"surface_tension": 0.07, "molar_mass": True}, "molar_mass: True is not a real number"),
         ({"surface_tension": 0.07, "temperature": 0}, "temperature: 0.0 K is not > 0"),
+        ({"surface_tension": 0.07, "molar_volume": -1.8e-5}, "molar_volume: -1.8e-05 m**3/mol is not > 0"),
+        (
+            {"surface_tension": 0.07, "molar_volume": 1.8e-5, "density": 998.0},
+            "molar_volume: given together with density; it stands for density and molar_mass",
+        ),
     ],
 )
 def test_bad_numbers_are_refused(numbers, message):
@@ -109,7 +122,8 @@ def test_water_gas_constant_is_that_of_the_paper():
 @pytest.mark.parametrize(
     ("temperature", "message"),
     [
-        (20.0, "temperature: 20.0 K is not in [273.15, 647.096)"),
+        (20.0, "temperature: 20.0 K is not in [273.15, 647.096); 20 degrees Celsius are 293.15 K"),
+        (253.15, "temperature: 253.15 K is not in [273.15, 647.096)"),
         (647.096, "temperature: 647.096 K is not in [273.15, 647.096)"),
         (math.nan, "temperature: nan K is not a number"),
         ([280.0, 290.0], "temperature: an array of shape (2,) is given where one number is needed"),
@@ -186,8 +200,8 @@ def test_density_is_absent_where_no_data_cover_it():
     [
         ("ethanl", "name: 'ethanl' is not a known liquid; did you mean ethanol or methanol or ethane?"),
         ("glyzerol", "name: 'glyzerol' is not a known liquid; did you mean glycerol?"),
-        ("xyzzy", "name: 'xyzzy' is not a known liquid; give its numbers to Liquid(...)"),
-        ("sucrose", "name: no surface tension is known for sucrose; give it to Liquid(...)"),
+        ("xyzzy", "name: 'xyzzy' is not a known liquid; make Liquid(surface_tension=...)"),
+        ("sucrose", "name: no surface tension is known for sucrose; pass surface_tension=..."),
         ("", "name: '' is not the name of a liquid"),
         (7, "name: 7 is not the name of a liquid"),
     ],
@@ -195,6 +209,104 @@ def test_density_is_absent_where_no_data_cover_it():
 def test_unknown_liquids_are_refused(name, message):
     with refused(message):
         Liquid.named(name)
+
+
+POLYMERS = (
+    *("PDMS", "PEG", "PEG 400", "PEG-200", "PEO", "PVP", "PVA", "PIB", "PPG", "PMMA", "silicone oil", "silicon oil"),
+    *("silicone", "dimethicone", "carbowax", "macrogol", "polymer", "polystyrene", "polyethylene", "polyisobutylene"),
+    *("polyethylene glycol", "poly(ethylene glycol)", "polydimethyl siloxane", "Polydimethylsiloxane"),
+)
+NOT_ONE = ("oil", "mineral oil", "glycol", "salt water", "sea water", "seawater", "brine", "alcohol", "ether", "spirit")
+
+
+@pytest.mark.parametrize("name", POLYMERS)
+def test_a_polymer_is_not_what_it_is_made_of(name):
+    with refused(f"name: {name!r} is a polymer, of which there are no data; make Liquid(surface_tension=...)"):
+        Liquid.named(name)
+
+
+@pytest.mark.parametrize("name", NOT_ONE)
+def test_a_mixture_or_a_kind_of_substance_is_not_one_of_them(name):
+    with refused(f"name: {name!r} is not one substance; write which, or make Liquid(surface_tension=...)"):
+        Liquid.named(name)
+
+
+@pytest.mark.parametrize(
+    ("name", "found", "number"),
+    [
+        ("63148-62-9", "octamethyltrisiloxane", "107-51-7"),  # the number of PDMS
+        ("viscasil 5m", "octamethyltrisiloxane", "107-51-7"),  # a silicone oil
+        ("lutrol", "ethylene glycol", "107-21-1"),  # polyethylene glycols
+        ("t-stuff", "hydrogen peroxide", "7722-84-1"),  # its solution, a fuel
+        ("C2H6O", "dimethyl ether", "115-10-6"),  # or ethanol
+        ("C6H14", "hexane", "110-54-3"),  # or one of its isomers
+        ("80", "mercury", "7439-97-6"),  # the number of the element
+        ("R125", "2-chloro-4-nitrobenzonitrile", "28163-00-0"),  # a refrigerant in the tables
+        ("butene", "1-butene", "106-98-9"),  # cis-2-butene in the tables
+    ],
+)
+def test_a_name_of_several_substances_is_refused_with_what_was_found(name, found, number):
+    with refused(
+        f"name: {name!r} may be something else than {found}, CAS {number}, which was found; "
+        "write that name or number, or make Liquid(surface_tension=...)"
+    ):
+        Liquid.named(name)
+
+
+@pytest.mark.parametrize("name", ["milk", "wine", "honey", "air", "sugar", "blood", "diesel", "ink", "PVOH 20"])
+def test_what_the_data_do_not_know_is_refused(name):
+    with pytest.raises(ValueError, match=f"^name: '{name}' is (not a known liquid|a polymer)"):
+        Liquid.named(name)
+
+
+@pytest.mark.parametrize(
+    ("name", "number"),
+    [
+        *((name, "7732-18-5") for name in ("water", " Water ", "H2O", "7732-18-5")),
+        *((name, "56-81-5") for name in ("glycerol", "glycerin", "glycerine", "propane-1,2,3-triol")),
+        *(
+            (name, "107-21-1")
+            for name in ("ethylene glycol", "1,2-ethanediol", "ethane-1,2-diol", "monoethylene glycol", "107-21-1")
+        ),
+        *((name, "112-40-3") for name in ("dodecane", "n-dodecane", "N-DODECANE")),
+        *((name, "64-17-5") for name in ("ethanol", "ethyl alcohol")),
+        *((name, "67-63-0") for name in ("isopropanol", "2-propanol", "propan-2-ol")),
+        *((name, "71-36-3") for name in ("1-butanol", "butanol", "butan-1-ol")),
+        *((name, "7439-97-6") for name in ("mercury", "Hg")),
+        *((name, "7789-20-0") for name in ("heavy water", "D2O")),
+        *(("toluene", "108-88-3"), ("toluol", "108-88-3"), ("benzene", "71-43-2"), ("benzol", "71-43-2")),
+        *(("hexane", "110-54-3"), ("n-hexane", "110-54-3"), ("decane", "124-18-5"), ("1-octanol", "111-87-5")),
+        *(("hexadecane", "544-76-3"), ("cyclohexane", "110-82-7"), ("acetone", "67-64-1"), ("DMSO", "67-68-5")),
+        *(("diethyl ether", "60-29-7"), ("styrene", "100-42-5"), ("propylene glycol", "57-55-6")),
+        *(("FC-72", "355-42-0"), ("octamethyltrisiloxane", "107-51-7"), ("bromine", "7726-95-6")),
+    ],
+)
+def test_a_name_in_use_means_its_substance(name, number):
+    assert _identify(name).CASs == number
+
+
+def test_most_liquids_with_data_are_found_by_the_name_in_the_tables():
+    names = _tabulated()
+    found = 0
+    for name, numbers in names.items():
+        try:
+            number = _identify(name).CASs
+        except ValueError:
+            continue
+        found += 1
+        assert number in numbers or name == _identify(name).common_name.lower(), name
+    assert found > 0.9 * len(names)
+
+
+def test_a_measured_surface_tension_takes_the_place_of_the_known_one():
+    soapy = Liquid.water(293.15, surface_tension=0.0523)
+    assert soapy == dataclasses.replace(WATER, surface_tension=0.0523)
+    assert Liquid.named("water", surface_tension=0.0523) == soapy
+    clean = Liquid.named("mercury", surface_tension=0.4865)
+    assert clean == dataclasses.replace(Liquid.named("mercury"), surface_tension=0.4865)
+    assert Liquid.named("sucrose", surface_tension=0.08).surface_tension == 0.08  # no data of it are needed
+    with refused("surface_tension: -1.0 N/m is not > 0"):
+        Liquid.named("ethanol", surface_tension=-1.0)
 
 
 @pytest.mark.parametrize(
@@ -214,7 +326,9 @@ def test_temperatures_outside_the_data_are_refused(name, temperature, message):
 @pytest.mark.parametrize("name", [row[0] for row in AT_20_CELSIUS])
 def test_no_value_is_extrapolated(name):
     for temperature in (1.0, 5000.0):
-        with pytest.raises(ValueError, match=r"^temperature of .+ K is not in \[.+\)$"):
+        with pytest.raises(
+            ValueError, match=r"^temperature of .+ K is not in \[.+\)(; 20 degrees Celsius are 293.15 K)?$"
+        ):
             Liquid.named(name, temperature)
 
 
@@ -294,6 +408,14 @@ def test_shapes_and_units_pass_through():
     assert isinstance(suction_from_humidity(0.9, WATER), float)
 
 
+def test_a_molar_volume_stands_for_density_and_molar_mass():
+    other = Liquid(0.05, temperature=WATER.temperature, molar_volume=WATER.molar_mass / WATER.density)
+    assert suction_from_humidity(0.5, other) == suction_from_humidity(0.5, WATER)
+    assert humidity_from_suction(1e6, other) == humidity_from_suction(1e6, WATER)
+    cubic_centimetres = Liquid(0.05, molar_volume=18 * UNITS.cm**3 / UNITS.mol)
+    assert cubic_centimetres.molar_volume == pytest.approx(18e-6, rel=1e-15)
+
+
 def test_temperature_may_be_given_once():
     oil = Liquid(0.02, density=900.0, molar_mass=0.3)
     warm = dataclasses.replace(oil, temperature=310.0)
@@ -308,8 +430,8 @@ def test_temperature_may_be_given_once():
 @pytest.mark.parametrize(
     ("humidity", "message"),
     [
-        (1.2, "humidity: 1.2 is not in (0, 1)"),
-        ([0.5, 1.0], "humidity[1]: 1.0 is not in (0, 1)"),
+        (1.2, "humidity: 1.2 is not in (0, 1); 50 % are 0.5, and saturation is a suction of 0"),
+        ([0.5, 1.0], "humidity[1]: 1.0 is not in (0, 1); 50 % are 0.5, and saturation is a suction of 0"),
         (0.0, "humidity: 0.0 is not in (0, 1)"),
         (math.nan, "humidity: nan is not a number"),
         ("90 %", "humidity: '90 %' is not a real number"),
@@ -340,13 +462,17 @@ def test_bad_suction_is_refused(suction, message):
     [
         (
             Liquid(0.0728),
-            "liquid: it lacks density, molar_mass, temperature, needed for humidity; give it to Liquid(...)",
+            "liquid: it lacks density and molar_mass (or molar_volume), temperature, needed for humidity; "
+            "give it to Liquid(...)",
         ),
         (
             dataclasses.replace(WATER, molar_mass=None),
-            "liquid: water lacks molar_mass, needed for humidity; give it to Liquid(...)",
+            "liquid: water lacks molar_mass (or molar_volume), needed for humidity; give it to Liquid(...)",
         ),
-        (Liquid.named("squalane"), "liquid: squalane lacks density, needed for humidity; give it to Liquid(...)"),
+        (
+            Liquid.named("squalane"),
+            "liquid: squalane lacks density (or molar_volume), needed for humidity; give it to Liquid(...)",
+        ),
     ],
 )
 def test_humidity_needs_a_whole_liquid(liquid, message):

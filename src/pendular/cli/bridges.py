@@ -4,48 +4,80 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..question import Question
-from ..units import read, show
+from ..question import SEPARATIONS, Question, sweep_length
+from ..units import read_values, show
 from ._app import print_answer, question_command, save_picture
 
 if TYPE_CHECKING:
     from ..bridges import Bridge
+    from ..report import Column
 
 __all__ = ["bridge", "curve", "rupture"]
 
+_SWEPT = ("force", "volume", "suction", "neck_radius")  # what the table of a sweep tells beside the separations
 
-@question_command("--radius 50um --contact-angle 20 --suction 20kPa --separation 1um --plot bridge.svg")
+
+@question_command(
+    "--radius 50um --contact-angle 20 --suction 20kPa --separation 1um --plot bridge.svg\n"
+    "  pendular bridge --diameter 100um --volume 5pL --separation 0:8um:5 --csv",
+    takes_sweeps=True,
+)
 def bridge(
     question: Question,
-    separation: Annotated[str, typer.Option(help="Gap from surface to surface: 1um.", metavar="LENGTH")],
+    separation: Annotated[
+        str,
+        typer.Option(
+            help="Gap from surface to surface: 1um; a sweep, 0:8um:5; or a list, 1um,2um,5um.", metavar="LENGTH"
+        ),
+    ],
     branch: Annotated[str, typer.Option(help="Which of two bridges: stable, or unstable.")] = "stable",
 ) -> None:
-    """Force, shape and energies of a bridge, and its rupture distance."""
+    """Force, shape and energies of a bridge, and its rupture distance.
+
+    Suction, volume or humidity may be a sweep, too: 1:20kPa:5 are five suctions, beside one or five separations.
+    """
     from .. import bridges, report
 
-    gap = read("separation", separation, "m", "1um")
-    answer = question.put_to(bridges.bridge, gap, branch=branch)
+    gap = read_values("separation", separation, "m", SEPARATIONS)
+    length = sweep_length(separation=gap, **question.control)
+    _refuse_picture_of_sweep(question)
+    answer = report.with_asked(question.put_to(bridges.bridge, gap, branch=branch), separation=gap, **question.control)
     end = question.put_to(bridges.rupture)
-    _draw(question, end, answer, gap)
+    if isinstance(gap, list):
+        _draw(question, end)
+    else:
+        _draw(question, end, answer, gap)
+    limit = report.spread("rupture_separation", "m", end.separation, answer)
     if question.form == "json":
-        found = {**report.plain_fields(answer), "rupture_separation": end.separation}
-        units = {**report.UNITS, "rupture_separation": "m"}
-        typer.echo(report.json_text({**found, "units": units}))
+        typer.echo(_json(question, answer, limit))
     elif question.form == "csv":
-        limit = report.Column("rupture_separation", "m", end.separation)
-        typer.echo(report.csv_text([*report.columns(answer), limit]), nl=False)
+        typer.echo(_csv(question, answer, limit), nl=False)
+    elif length is not None:
+        gaps = report.column_of("separation", answer)
+        _print_sweep(question, answer, gaps, limit._replace(name="rupture_distance"))
     else:
         rupture_distance = (show(float(end.separation), "m"), "separation at which the bridge breaks")
         print_answer(question, report.state_table(answer, {"rupture distance": rupture_distance}))
 
 
-@question_command("--radius 50um --radius2 plane --contact-angle 50 --volume 5pL")
+@question_command(
+    "--radius 50um --radius2 plane --contact-angle 50 --volume 5pL\n"
+    "  pendular rupture --radius 50um --suction 1:20kPa:5",
+    takes_sweeps=True,
+)
 def rupture(question: Question) -> None:
-    """Rupture distance, and the bridge as it breaks."""
+    """Rupture distance, and the bridge as it breaks.
+
+    Suction, volume or humidity may be a sweep, 1:20kPa:5, or a list, 1kPa,5kPa,20kPa.
+    """
     from .. import bridges, report
 
-    end = question.put_to(bridges.rupture)
+    _refuse_picture_of_sweep(question)
+    end = report.with_asked(question.put_to(bridges.rupture), **question.control)
     _draw(question, end)
+    if sweep_length(**question.control) is not None:
+        _print_ruptures(question, end)
+        return
     earlier = question.instability(end)
     if question.form == "json":
         limit = None if earlier is None else report.plain_fields(earlier)
@@ -65,6 +97,23 @@ def rupture(question: Question) -> None:
         print_answer(question, report.rupture_table(end, more))
 
 
+def _print_ruptures(question: Question, end: "Bridge") -> None:
+    """Print the ends of a sweep of bridges; a volume has two, and the first is told by its separation."""
+    from .. import bridges, report
+
+    limits = []
+    if "volume" in question.control:
+        first = question.put_to(bridges.rupture, limit="stability")
+        limits.append(report.spread("stability_separation", "m", first.separation, end))
+    if question.form == "json":
+        typer.echo(_json(question, end, *limits))
+    elif question.form == "csv":
+        typer.echo(_csv(question, end, *limits), nl=False)
+    else:
+        distances = report.column_of("separation", end)._replace(name="rupture_distance")
+        _print_sweep(question, end, distances, *(limit._replace(name="stable_to") for limit in limits))
+
+
 @question_command("--radius 50um --radius2 5um --contact-angle 20 --humidity 90% --temperature 25degC --csv")
 def curve(
     question: Question,
@@ -81,6 +130,44 @@ def curve(
         typer.echo(report.csv_text(report.columns(states)), nl=False)
     else:
         print_answer(question, report.curve_table(states) if end.exists else "no bridge between solids apart")
+
+
+def _json(question: Question, answer: "Bridge", *more: "Column") -> str:
+    """Fields of an answer and further columns, under their names."""
+    from .. import report
+
+    extra = [*_humidity(question, answer), *more]
+    fields = {**report.plain_fields(answer), **{column.name: column.values for column in extra}}
+    units = {**report.UNITS, **{column.name: column.unit for column in extra}}
+    return report.json_text({**fields, "units": units})
+
+
+def _csv(question: Question, answer: "Bridge", *more: "Column") -> str:
+    """Fields of an answer and further columns, one row a point."""
+    from .. import report
+
+    return report.csv_text([*_humidity(question, answer), *report.columns(answer), *more])
+
+
+def _print_sweep(question: Question, answer: "Bridge", *separations: "Column") -> None:
+    """Print some fields of an answer as a table, one row a point."""
+    from .. import report
+
+    columns = [*_humidity(question, answer), *separations, *(report.column_of(name, answer) for name in _SWEPT)]
+    print_answer(question, report.sweep_table(columns, answer))
+
+
+def _humidity(question: Question, answer: "Bridge") -> "list[Column]":
+    """Column of the humidity where that is held, of which the fields of a bridge know the suction only."""
+    from .. import report
+
+    return [report.spread(name, "", values, answer) for name, values in question.control.items() if name == "humidity"]
+
+
+def _refuse_picture_of_sweep(question: Question) -> None:
+    """Refuse to draw bridges of several controls, whose curves differ."""
+    if question.picture is not None and sweep_length(**question.control) is not None:
+        raise ValueError(f"plot: draws the bridges of one {', '.join(question.control)}, not of a sweep of it")
 
 
 def _draw(question: Question, end: "Bridge", state: "Bridge | None" = None, separation: float = 0.0) -> None:

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from ..question import read_contact_angle
 from ._app import app, need_extra
 
 __all__ = ["dataset", "paper"]
@@ -18,7 +19,8 @@ def dataset(
     shape: Annotated[str, typer.Option(help="Half-filling angles x neck ratios.", metavar="NxM")] = "240x200",
     ratio: Annotated[list[float] | None, typer.Option(help="Size ratio; may be repeated. 1, 2, 8, 128.")] = None,
     contact_angle: Annotated[
-        list[float] | None, typer.Option(help="Contact angle in degrees; may be repeated. 0, 20, 40.")
+        list[str] | None,
+        typer.Option(help="Contact angle: 20 or 20deg, 0.35rad; may be repeated. 0, 20, 40.", metavar="ANGLE"),
     ] = None,
     workers: Annotated[str | None, typer.Option(help="Processes, or the address of a Dask scheduler.")] = None,
     netcdf: Annotated[Path | None, typer.Option(help="Copy to a NetCDF file: bridges.nc.", metavar="FILE")] = None,
@@ -32,12 +34,12 @@ def dataset(
     if counts is None:
         raise ValueError(f"shape: {shape!r} is not of the form 240x200")
     need_extra("data", "xarray", "zarr", "h5netcdf", "dask")
-    degrees = None if contact_angle is None else [math.radians(angle) for angle in sorted(contact_angle)]
+    degrees = None if contact_angle is None else sorted(read_contact_angle("contact-angle", a) for a in contact_angle)
     made = data.make_dataset(
         path,
         shape=(int(counts[1]), int(counts[2])),
         size_ratio=sorted(ratio or data.PAPER_RATIOS),
-        contact_angle=data.PAPER_ANGLES if degrees is None else degrees,
+        contact_angle=data.PAPER_ANGLES if degrees is None else [math.radians(angle) for angle in degrees],
         workers=int(workers) if workers is not None and workers.isdigit() else workers,
         progress=True,
     )

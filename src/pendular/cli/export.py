@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..question import read_form
-from ..units import read_angle
-from ._app import app, compiling_shown, print_page, save_picture
+from ..question import read_contact_angle, read_form
+from ._app import app, compiling_shown, help_if_alone, print_page, save_picture
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -25,9 +24,12 @@ export = typer.Typer(
 app.add_typer(export)
 
 
-@export.callback(epilog="\b\nExample:\n  pendular export yade --contact-angle 20 --out tables")
-def _start() -> None:
+@export.callback(
+    invoke_without_command=True, epilog="\b\nExample:\n  pendular export yade --contact-angle 20 --out tables"
+)
+def _start(context: typer.Context) -> None:
     """Bridges for particle codes: the files that they read."""
+    help_if_alone(context)
 
 
 @export.command(
@@ -72,8 +74,8 @@ def yade(
 
 def _acute(name: str, text: str) -> float:
     """Contact angle below 90°, beyond which no suction holds a bridge apart, [rad]."""
-    degrees = read_angle(name, text)
-    if not 0.0 <= degrees < 90.0:
+    degrees = read_contact_angle(name, text)
+    if degrees >= 90.0:
         raise ValueError(f"{name}: {degrees:.10g} deg is not in [0, 90); no suction holds a bridge apart beyond it")
     return math.radians(degrees)
 

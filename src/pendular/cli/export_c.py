@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from ..units import read_angle
+from ..question import read_contact_angle
 from ._app import compiling_shown
 from .export import export
 
@@ -44,7 +44,7 @@ def c(
 ) -> None:
     """Force, stiffness, rupture distance and volume (or suction) of bridges as one C header, for any particle code."""
     angles = tuple(
-        math.radians(read_angle(name, text))
+        math.radians(read_contact_angle(name, text))
         for name, text in (("contact-angle", contact_angle), ("contact-angle2", contact_angle2 or contact_angle))
     )
     if reduced_volume is not None and reduced_suction is not None:

@@ -33,7 +33,7 @@ def pair_table(
     if not keyword or len(keyword.split()) != 1:
         raise ValueError(f"keyword: {keyword!r} is not one word")
     depth = None if overlap is None else read("overlap", overlap, "m", "5um")
-    table = tables.pair_table(question.pair, **question.control, liquid=question.liquid, overlap=depth, points=points)
+    table = tables.pair_table(question.pair, **question.held, liquid=question.liquid, overlap=depth, points=points)
     text = tables.pair_table_text(table, keyword, question.title, question.subtitle)
     try:
         out.write_text(text, encoding="utf-8")

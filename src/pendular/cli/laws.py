@@ -118,7 +118,6 @@ def _asked(shared: dict[str, Any]) -> dict[str, Any]:
     import inspect
 
     defaults = {name: p.default for name, p in inspect.signature(read_question).parameters.items()}
-    defaults["radius"] = None
     return {n: value for n, value in shared.items() if n not in _FORMS and value != defaults[n]}
 
 
@@ -134,9 +133,7 @@ def _show_comparison(shared: dict[str, Any]) -> None:
     from ..comparison import compare, plots, tables
     from ..report import csv_text, json_text
 
-    if shared["radius"] is None:
-        raise ValueError("radius: missing; write it like 50um")
-    question = read_question(**shared)
+    question = read_question(**shared).of_one_value()
     held: dict[str, Any] = {**question.control}
     found = compare(question.pair, **held, liquid=question.liquid)
     if question.picture is not None:

@@ -9,7 +9,7 @@ from .._check import in_range, quantity
 from ..bridges import bridge, rupture
 from ..laws import Law, force_star, laws, rupture_star, rupture_work_star
 from ..liquid import Liquid
-from ..pair import Pair
+from ..pair import Pair, check_pair
 from ..problem import Control, control_of
 from .domain import outside_range, why_silent
 from .sample import ControlName, rupture_work
@@ -135,6 +135,7 @@ def compare(
 
 def _exact(pair: Pair, control: Control, liquid: Liquid, count: int) -> Comparison:
     """Exact states, dense towards contact and rupture, where force and error change fastest."""
+    check_pair(pair)
     if any(np.ndim(number) for number in (control.value, *pair.radii, *pair.contact_angles)):
         raise ValueError(f"pair: an array of radii, angles or {control.name} is given where single numbers are needed")
     held: dict[str, Any] = {control.name: float(control.value), "liquid": liquid}

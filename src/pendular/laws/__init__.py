@@ -21,6 +21,8 @@ class _Registry(ModuleType):
     """Importing any law binds `pendular.laws` to this package, so the package has to answer as the registry."""
 
     def __getitem__(self, name: str) -> Law:
+        if name not in laws:
+            raise KeyError(f"law: {name!r} is not one of {', '.join(laws)}")
         return laws[name]
 
     def __iter__(self) -> Iterator[str]:

@@ -98,7 +98,7 @@ def value_of(name: str, answer: Answer) -> float:
         "temperature": liquid.temperature or zero_Celsius,
         "surface_tension": liquid.surface_tension,
         "separation": answer.separation,
-        **answer.question.control,
+        **answer.question.held,
     }
     return values[name]
 

@@ -71,7 +71,7 @@ def question(view: View) -> Question:
     """Question that a view asks; ValueError in one line for what cannot be meant."""
     given: dict[str, Any] = {name.replace("-", "_"): text for name, text in _given(view).items()}
     del given["separation"]
-    return read_question(**given)
+    return read_question(**given).of_one_value()
 
 
 def address(view: View) -> str:

@@ -14,6 +14,7 @@ from .coupling import Coupling
 from .failures import guard
 from .forces import Liquid
 from .stores import Supply
+from .walls import watch_walls
 
 __all__ = ["couple"]
 
@@ -85,10 +86,16 @@ def couple(
         For bad input and for settings of LAMMPS under which the forces would be wrong. Later, the command that runs
         LAMMPS raises it where a pair leaves the range of the table; that run ends, and LAMMPS makes no other.
 
+    Warns
+    -----
+    UserWarning
+        Of each fix of a style ``wall...``, now or when it is made: walls are dry, bridges join grains to grains.
+
     Notes
     -----
-    **Validity.** As the table. The forces exert no torque. Under suction a reservoir supplies the liquid. Energies and
-    virials, total and of each atom, count in ``pe``, ``press``, ``compute pe/atom`` and ``compute stress/atom``.
+    **Validity.** As the table. There are no bridges to walls, unless these are made of grains. The forces exert no
+    torque. Under suction a reservoir supplies the liquid. Energies and virials, total and of each atom, count in
+    ``pe``, ``press``, ``compute pe/atom`` and ``compute stress/atom``.
     Under MPI the ranks agree in every step on the bridges that form and break.
 
     Examples
@@ -148,6 +155,7 @@ def couple(
     lmp.command(f"compute {fix} all coord/atom cutoff {limit!r}")  # refused at a run where the list is shorter
     lmp.set_fix_external_callback(fix, coupling.step, lmp)
     guard(lmp)
+    watch_walls(lmp)
     return coupling
 
 

@@ -8,9 +8,9 @@ import functools
 from collections.abc import Callable
 from typing import Any
 
-__all__ = ["guard", "stop_with"]
+__all__ = ["COMMANDS", "guard", "stop_with"]
 
-_COMMANDS = ("command", "commands_list", "commands_string", "file")
+COMMANDS = ("command", "commands_list", "commands_string", "file")
 _CUTOFF = "coord/atom cutoff is longer than pairwise cutoff"
 
 
@@ -24,7 +24,7 @@ def guard(lammps: Any) -> None:
     """Let the commands of a LAMMPS object raise what stopped them."""
     if not hasattr(lammps, "_pendular_failure"):
         lammps._pendular_failure = None
-        for name in _COMMANDS:
+        for name in COMMANDS:
             setattr(lammps, name, _guarded(lammps, getattr(lammps, name)))
 
 
