@@ -85,11 +85,11 @@ def _store(description: Description, row: Rows) -> int:
 def _store_end(end: End, row: Rows) -> int:
     """Store where a search ended.
 
-    At the end of a branch the index and the slope are the signs of rounding errors: what is stored is that of the branch
-    which ends there, and at a fold the force falls, or at a lower end rises, infinitely fast.
+    At the end of a branch the index and the slope are the signs of rounding errors: what is stored is that of the
+    branch which ends there, and at a fold the force falls, or at a lower end rises, infinitely fast.
     """
     status = _store(describe(end.stance.z, end.curve.held, end.curve.symmetric), row)
-    row[_INDEX] = 0.0 if end.event != ARRIVED else float(end.stance.index)
+    row[_INDEX] = 0.0 if end.event != ARRIVED else float(end.stance.unstable)
     return status
 
 

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from .._jit import kernel
 from .algebra import Four, largest
-from .equations import SUCTION, Held, curvature_of, force_of, system_at
 from .ends import stable_bridge, upper_end
+from .equations import SUCTION, Held, curvature_of, force_of, system_at
 from .follow import ARRIVED, BRANCH_ENDS, FOLD, PITCHFORK, Nodes
 from .morph import Task, held_of
 from .newton import newton_to
@@ -77,7 +77,8 @@ def _is_stable(z: Four, held: Held) -> bool:
 def fill_branch(task: Task, q: Vector, stretch: float, values: Rows, nodes: Nodes) -> float:
     """Force λ, and V or H, of the stable bridges at each q, ascending; returns the rupture distance, NaN if none.
 
-    Every bridge is found from the ones nearer to rupture; where that does not lead to a stable one near by, it is sought.
+    Every bridge is found from the ones nearer to rupture; where that does not lead to a stable one near by, it is
+    sought.
     """
     values[:] = math.nan
     held = held_of(task)
@@ -99,7 +100,9 @@ def fill_branch(task: Task, q: Vector, stretch: float, values: Rows, nodes: Node
         last = z
         nodes[i, 0], nodes[i, 1], nodes[i, 2], nodes[i, 3] = z[0], z[1], z[2], z[3]
         values[i, 0] = force_of(z)
-        values[i, 1] = math.pi * system_at(z, held, True, True).volume.value if held.control == SUCTION else curvature_of(z)
+        values[i, 1] = (
+            math.pi * system_at(z, held, True, True).volume.value if held.control == SUCTION else curvature_of(z)
+        )
     return rupture
 
 
@@ -110,8 +113,14 @@ def _distance(a: Four, b: Four) -> float:
 
 @kernel
 def branch_range(
-    control: int, stretched: bool, pairs: Rows, q: Vector, rupture: Vector, values: NDArray[np.float64],
-    start: int, stop: int,
+    control: int,
+    stretched: bool,
+    pairs: Rows,
+    q: Vector,
+    rupture: Vector,
+    values: NDArray[np.float64],
+    start: int,
+    stop: int,
 ) -> None:
     """Branches at the same q, ascending, for the rows from start to stop.
 

@@ -2,7 +2,8 @@
 
 The equations know the solids at the contact circles only. Along the arc the curvature of the meridian is H/2 + λ/Y². A
 meridian that runs forward along the axis and is nowhere bent more tightly towards a solid than that solid itself cannot
-come back to it, nor one that nowhere is narrower than the contact circle. Where neither is certain, points are looked at.
+come back to it, nor one that nowhere is narrower than the contact circle. Where neither is certain, points are looked
+at.
 """
 
 import math
@@ -22,7 +23,7 @@ _GAUSS = ((-math.sqrt(0.6), 5.0 / 9.0), (0.0, 8.0 / 9.0), (math.sqrt(0.6), 5.0 /
 
 @kernel
 def opening_of(z: Four, system: System, held: Held) -> float:
-    """The smaller contact circle over ℓ; negative where that lies past the far pole of its solid, or the arc winds up."""
+    """The smaller contact circle over ℓ; negative where one is past the far pole of its solid, or the arc winds up."""
     first, second = system.first, system.second
     filling1 = half_filling_angle(held.first, first.cos_slope, first.sin_slope)
     filling2 = half_filling_angle(held.second, second.cos_slope, second.sin_slope)

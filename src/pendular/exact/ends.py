@@ -1,8 +1,8 @@
 """Where the stable branch of a pair ends: rupture above, and at some volumes a lower end; and what lies beyond.
 
 Bridges of one suction or volume are stable from contact, or from a lower end where the drop would rather swallow the
-better wetted solid, up to rupture. Both ends are folds, or for mirror images a pitchfork, where the liquid slides to one
-side. From each an unstable branch leaves.
+better wetted solid, up to rupture. Both ends are folds, or for mirror images a pitchfork, where the liquid slides to
+one side. From each an unstable branch leaves.
 """
 
 import math
@@ -105,7 +105,7 @@ def _glance(z: Four, curve: Curve, fine: bool) -> Glance:
 def _is_in_order(stance: Stance, margin: float) -> bool:
     """Whether a point lies on the stable piece of a curve, or on the one after its end."""
     after = (1 if stance.slope < 0.0 else 0) + (1 if stance.margin * margin < 0.0 else 0)
-    return stance.index == after
+    return stance.unstable == after
 
 
 @kernel
@@ -157,7 +157,7 @@ def _leap_to(event: int, start: Stance, curve: Curve) -> tuple[Stance, bool]:
         if fine and abs(onward) < _LAST_LEAP and largest(way) < _LAST_LEAP:
             return _settled(event, moved(z, onward, ahead.tangent), curve)
         fine = abs(onward) < _FINE_LEAP
-        base = Stance(z, ahead.tangent, ahead.separation, ahead.slope, ahead.index, ahead.margin, ahead.opening)
+        base = Stance(z, ahead.tangent, ahead.separation, ahead.slope, ahead.unstable, ahead.margin, ahead.opening)
         at_base = at_ahead
         step = max(-_LONGEST_LEAP, min(_LONGEST_LEAP, onward))
         if abs(step) < _SHORTEST_LEAP:
@@ -175,7 +175,7 @@ def _quick_end(task: Task, stops_at: int) -> tuple[Walk, bool]:
         z, is_met = newton_to(guess_at(held, separation), separation, held, _MOST_STEPS)
         if is_met:
             start, curve = set_out(z, held, symmetric, 1.0)
-            is_met = start.index == 0 and start.opening > 0.0
+            is_met = start.unstable == 0 and start.opening > 0.0
             if is_met:
                 break
         separation *= 0.75

@@ -119,7 +119,9 @@ def force_rates(z: Four) -> Four:
     radius = math.exp(z.log_radius)
     bent = 0.5 * curvature_of(z) * radius * radius
     across = radius * math.cos(z.slope)
-    return Four(across + 2.0 * bent, -radius * math.sin(z.slope), -bent, 0.5 * radius * radius * math.exp(-z.log_length))
+    return Four(
+        across + 2.0 * bent, -radius * math.sin(z.slope), -bent, 0.5 * radius * radius * math.exp(-z.log_length)
+    )
 
 
 @kernel

@@ -1,9 +1,9 @@
 """Following a curve of bridges that hold one thing, along its tangent, with the rule of folds.
 
 Along a curve of bridges at one suction or one volume the separation turns where, and only where, the number of unstable
-directions changes, by one. A step that breaks this rule has leapt to another curve: it is halved. A bridge between mirror
-images is kept symmetric; it may lose its symmetry as well, at a pitchfork, where an antisymmetric direction becomes
-unstable and the separation does not turn.
+directions changes, by one. A step that breaks this rule has leapt to another curve: it is halved. A bridge between
+mirror images is kept symmetric; it may lose its symmetry as well, at a pitchfork, where an antisymmetric direction
+becomes unstable and the separation does not turn.
 """
 
 import math
@@ -25,7 +25,7 @@ ARRIVED, FOLD, PITCHFORK, ENDED, LOST = 0, 1, 2, 3, 4
 # What a walk stops at, beside its target.
 NOTHING, FOLDS, BRANCH_ENDS = 0, 1, 2
 
-_FIRST_STEP, _LONGEST_STEP, _SHORTEST_STEP = 0.05, 0.3, 1e-9
+_FIRST_STEP, _LONGEST_STEP, _SHORTEST_STEP = 0.05, 0.3, 1e-10
 _MOST_STEPS = 1000
 _MOST_CORRECTIONS = 6
 _LARGEST_CORRECTION = 0.4  # over the step
@@ -33,9 +33,8 @@ _LEAST_COSINE = 0.95  # of the turn of the tangent in a step
 _SMALL_CORRECTION = 1e-11
 _CLOSED = 1e-6  # contact circle over ℓ at which it has closed
 _NEARLY_CLOSED = 1e-2  # where a curve that cannot be followed on ends all the same: the circle closes in a fold
-_NEAR_END = 1e-10  # step to the end of a curve
 _FORK_STEP = 0.02  # of the slope in the middle, away from a pitchfork
-_PROBE = 1e-3  # way beyond a fold to where the index is certain
+_PROBE = 1e-3  # way beyond a fold to where the signs of the ladder are certain
 _ROUNDING = 1e-30
 _FLAT = 1e-6  # slope of a fold
 
@@ -47,7 +46,7 @@ class Stance(NamedTuple):
     tangent: Four
     separation: float
     slope: float  # dD/ds over ℓ
-    index: int  # unstable directions under what is held
+    unstable: int  # directions in which the energy falls, under what is held
     margin: float  # of a symmetric bridge against the antisymmetric direction: it changes its sign there; else 1
     opening: float  # the smaller contact circle over ℓ; negative past the far pole of a solid, or for an arc wound up
 
@@ -138,7 +137,7 @@ def _obeys(before: Stance, after: Stance) -> bool:
     forks = before.margin * after.margin < 0.0
     if folds and forks:
         return False
-    return abs(after.index - before.index) == (1 if folds or forks else 0)
+    return abs(after.unstable - before.unstable) == (1 if folds or forks else 0)
 
 
 @kernel
@@ -198,9 +197,9 @@ def _stance_after(start: Stance, step: float, curve: Curve) -> Stance:
 
 
 @kernel
-def _with_index(stance: Stance, index: int) -> Stance:
-    """A stance whose index is known from its neighbours: next to a fold its own is the sign of a rounding error."""
-    return Stance(stance.z, stance.tangent, stance.separation, stance.slope, index, stance.margin, stance.opening)
+def _with_unstable(stance: Stance, unstable: int) -> Stance:
+    """A stance whose stability is known from its neighbours: next to a fold its own is the sign of a rounding error."""
+    return Stance(stance.z, stance.tangent, stance.separation, stance.slope, unstable, stance.margin, stance.opening)
 
 
 @kernel
@@ -217,69 +216,78 @@ def _record(nodes: Nodes, count: int, z: Four) -> int:
     return count
 
 
+class Stretch(NamedTuple):
+    """A step along a curve, cut where an event lies within it."""
+
+    event: int  # FOLD, PITCHFORK, or ARRIVED if none does; ENDED or LOST where there is no step
+    reach: float  # length up to the event, or of the step
+    end: Stance  # there
+
+
+@kernel
+def _stretch_to(start: Stance, after: Stance, step: float, curve: Curve) -> Stretch:
+    """The first event within a step."""
+    if start.slope * after.slope < 0.0:
+        event = FOLD
+    elif start.margin * after.margin < 0.0:
+        event = PITCHFORK
+    else:
+        return Stretch(ARRIVED, step, after)
+    end = _locate(event, start, 0.0, step, 0.0, curve)
+    return Stretch(event, dot(start.tangent, moved(end.z, -1.0, start.z)), end)
+
+
+@kernel
+def _next(stance: Stance, step: float, curve: Curve) -> tuple[Stance, Stretch, float, float]:
+    """The longest step up to a given one that can be trusted, its events, its length, and that to try next.
+
+    The length is 0 where there is none: the curve has ended, or was lost.
+    """
+    reason = ENDED if stance.opening < _NEARLY_CLOSED else LOST
+    while step >= _SHORTEST_STEP:
+        after, trusted, longer = stride(stance, step, curve)
+        if trusted and after.opening >= _CLOSED:
+            stretch = _stretch_to(stance, after, step, curve)
+            if stretch.end.opening >= _CLOSED:
+                return after, stretch, step, min(_LONGEST_STEP, 1.6 * step) if longer else step
+        if trusted:
+            reason = ENDED
+        step *= 0.4
+    return stance, Stretch(reason, 0.0, stance), 0.0, 0.0
+
+
 @kernel
 def follow(stance: Stance, curve: Curve, target: float, stops_at: int, nodes: Nodes) -> Walk:
     """Follow a curve until D meets its target, or what it stops at, or the curve itself ends.
 
-    ``stops_at`` is NOTHING, FOLDS, or BRANCH_ENDS: folds and pitchforks. The points passed are stored in ``nodes``, as far as it reaches.
+    ``stops_at`` is NOTHING, FOLDS, or BRANCH_ENDS: folds and pitchforks. The points passed are stored in ``nodes``, as
+    far as it reaches.
     """
-    step, going = _FIRST_STEP, 0.0
+    following, going = _FIRST_STEP, 0.0
     count = _record(nodes, 0, stance.z)
     for _ in range(_MOST_STEPS):
         going = 1.0 if stance.slope > 0.0 else -1.0
-        after, trusted, longer = stride(stance, step, curve)
-        if not trusted:
-            step *= 0.4
-            if step < _SHORTEST_STEP:
-                event = ENDED if stance.opening < _NEARLY_CLOSED else LOST
-                return Walk(event, stance, curve, count, going)
-            continue
-        if after.opening < _CLOSED:
-            if step > _NEAR_END:
-                step *= 0.4
-                continue
-            return Walk(ENDED, stance, curve, count, going)
-        event, reach, end = ARRIVED, step, after
-        if stance.slope * after.slope < 0.0:
-            event = FOLD
-        elif stance.margin * after.margin < 0.0:
-            event = PITCHFORK
-        if event != ARRIVED:
-            end = _locate(event, stance, 0.0, step, target, curve)
-            if end.opening < _CLOSED:
-                step *= 0.4
-                if step < _SHORTEST_STEP:
-                    return Walk(ENDED, stance, curve, count, going)
-                continue
-            reach = dot(
-                stance.tangent,
-                Four(
-                    end.z[0] - stance.z[0],
-                    end.z[1] - stance.z[1],
-                    end.z[2] - stance.z[2],
-                    end.z[3] - stance.z[3],
-                ),
-            )
-        if _encloses(stance, end, target):
-            found = _with_index(_locate(ARRIVED, stance, 0.0, reach, target, curve), stance.index)
+        after, stretch, step, following = _next(stance, following, curve)
+        if step == 0.0:
+            return Walk(stretch.event, stance, curve, count, going)
+        if _encloses(stance, stretch.end, target):
+            found = _with_unstable(_locate(ARRIVED, stance, 0.0, stretch.reach, target, curve), stance.unstable)
             return Walk(ARRIVED, found, curve, _record(nodes, count, found.z), going)
-        if event != ARRIVED:
-            count = _record(nodes, count, end.z)
-            if stops_at == BRANCH_ENDS or (stops_at == FOLDS and event == FOLD):
-                return Walk(event, end, curve, count, going)
-            if _encloses(end, after, target):
-                found = _with_index(_locate(ARRIVED, stance, reach, step, target, curve), after.index)
+        if stretch.event != ARRIVED:
+            count = _record(nodes, count, stretch.end.z)
+            if stops_at == BRANCH_ENDS or (stops_at == FOLDS and stretch.event == FOLD):
+                return Walk(stretch.event, stretch.end, curve, count, going)
+            if _encloses(stretch.end, after, target):
+                found = _with_unstable(_locate(ARRIVED, stance, stretch.reach, step, target, curve), after.unstable)
                 return Walk(ARRIVED, found, curve, _record(nodes, count, found.z), going)
         stance = after
         count = _record(nodes, count, stance.z)
-        if longer:
-            step = min(_LONGEST_STEP, 1.6 * step)
     return Walk(LOST, stance, curve, count, going)
 
 
 @kernel
 def just_after(stance: Stance, curve: Curve) -> Stance:
-    """A bridge so little further on a curve that nothing happens in between, where the index is certain."""
+    """A bridge so little further that nothing happens in between, where the signs of the ladder are certain."""
     return _stance_after(stance, _PROBE, curve)
 
 
@@ -287,7 +295,8 @@ def just_after(stance: Stance, curve: Curve) -> Stance:
 def beyond(walk: Walk) -> tuple[Stance, Curve]:
     """Where a curve goes on after the fold, or the pitchfork, at which a walk ended.
 
-    The slope and the index at the event itself are the signs of rounding errors: they are taken from a point beyond it. From a pitchfork two curves without symmetry start, mirror images of each other: one of them.
+    The slope and the stability at the event itself are the signs of rounding errors: they are taken from a point
+    beyond it. From a pitchfork two curves without symmetry start, mirror images of each other: one of them.
     """
     stance, curve = walk.stance, walk.curve
     if walk.event == PITCHFORK:
@@ -300,9 +309,9 @@ def beyond(walk: Walk) -> tuple[Stance, Curve]:
             curve = Curve(held, False, -1.0)
             after = stance_at(z, curve)
         return after, curve
-    index = just_after(stance, curve).index
+    unstable = just_after(stance, curve).unstable
     slope = -walk.going * _ROUNDING
-    return Stance(stance.z, stance.tangent, stance.separation, slope, index, stance.margin, stance.opening), curve
+    return Stance(stance.z, stance.tangent, stance.separation, slope, unstable, stance.margin, stance.opening), curve
 
 
 @kernel

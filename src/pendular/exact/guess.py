@@ -1,7 +1,7 @@
-"""Where to start looking for a bridge: a circular meridian between contact circles of nearly one radius, in closed form.
+"""Where to start looking for a bridge: a circular meridian between contact circles of nearly one radius.
 
-At a volume the radius is that of a cylinder of liquid, corrected once for the circle; at a suction it is the largest root
-of the balance of a torus, whose second curvature is 1/Y, corrected once as well.
+At a volume the radius is that of a cylinder of liquid, corrected once for the circle; at a suction it is the largest
+root of the balance of a torus, whose second curvature is 1/Y, corrected once as well.
 """
 
 import math
@@ -235,7 +235,9 @@ def rupture_at_suction(held: Held) -> float:
         radius = min(radius, (0.5 * cosines * bend / (mean * suction * suction)) ** (1.0 / 3.0))
     for _ in range(6):
         u = suction * radius + bend
-        value = (cosines - 2.0 * sines * radius) * bend - sines * suction * radius * radius - 2.0 * mean * radius * u * u
+        value = (
+            (cosines - 2.0 * sines * radius) * bend - sines * suction * radius * radius - 2.0 * mean * radius * u * u
+        )
         rate = -2.0 * sines * u - 2.0 * mean * u * u - 4.0 * mean * radius * u * suction
         radius = max(radius - value / rate, 0.2 * radius)
     return (cosines - sines * radius) * radius / (suction * radius + bend) - mean * radius * radius

@@ -6,9 +6,10 @@ With s the arc length from the middle, Y the radius, φ the slope angle against 
 .. math:: 1 + H\zeta(s) = (1 + H\zeta_m)\,e^{iHs}, \qquad \zeta(s) = \zeta_m e^{i\omega f} + \ell f\,
           \frac{e^{i\omega f} - 1}{\omega f}, \quad f = s/\ell, \; \omega = H\ell .
 
-The four numbers are :math:`(\ln Y_m, \varphi_m, \ln\ell, \omega)`; nothing in them is singular at a catenoid, a cylinder,
-a sphere, a neck, a bulge or an inflection. In the algebraic parameter :math:`v = (2/H)\tan(Hs/2)`, over its half width τ,
-the arc is a Möbius map, :math:`\zeta(v) = (\zeta_m(1 + iw) + iv)/(1 - iw)` with :math:`w = \eta v/2`, η = Hτ and
+The four numbers are :math:`(\ln Y_m, \varphi_m, \ln\ell, \omega)`; nothing in them is singular at a catenoid, a
+cylinder, a sphere, a neck, a bulge or an inflection. In the algebraic parameter :math:`v = (2/H)\tan(Hs/2)`, over its
+half width τ, the arc is a Möbius map, :math:`\zeta(v) = (\zeta_m(1 + iw) + iv)/(1 - iw)` with :math:`w = \eta v/2`, η
+= Hτ and
 :math:`ds = dv/(1 + w^2)`: length, volume and all their rates come from one loop of products and one square root a node.
 """
 
@@ -171,8 +172,7 @@ def node_at(real: float, imag: float, h: float, cut: Cut, x: float, weight: floa
         + t
         * (
             0.5
-            + t
-            * (1 / 6 + t * (1 / 24 + t * (1 / 120 + t * (1 / 720 + t * (1 / 5040 + t * (1 / 40320 + t / 362880))))))
+            + t * (1 / 6 + t * (1 / 24 + t * (1 / 120 + t * (1 / 720 + t * (1 / 5040 + t * (1 / 40320 + t / 362880))))))
         )
     )  # e^t by its series and four squarings: products alone, which a processor does several at a time
     e = e * e
@@ -184,9 +184,7 @@ def node_at(real: float, imag: float, h: float, cut: Cut, x: float, weight: floa
     w = h * v
     p = 1.0 / (1.0 + w * w)
     nr, ni = real - v * h * imag, imag + v * (1.0 + h * real)
-    return Node(
-        (nr - ni * w) * p, (ni + nr * w) * p, 0.5 * cut.spread * cut.half * (e + inverse) * weight * p, v, w, p
-    )
+    return Node((nr - ni * w) * p, (ni + nr * w) * p, 0.5 * cut.spread * cut.half * (e + inverse) * weight * p, v, w, p)
 
 
 @summing_kernel

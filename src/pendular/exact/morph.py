@@ -1,8 +1,8 @@
 """From a bridge of an easy problem to one of a hard problem, along a curve in the space of both.
 
-With t from 0 to 1 the angles, the curvatures, the separation and what is held go from those of the easy problem to those
-of the hard one. The curve of solutions (z, t) is followed by steps along its tangent; after each the component that
-changes most along the curve is kept, and Newton's method finds the other four. So t may turn back on the way.
+With t from 0 to 1 the angles, the curvatures, the separation and what is held go from those of the easy problem to
+those of the hard one. The curve of solutions (z, t) is followed by steps along its tangent; after each the component
+that changes most along the curve is kept, and Newton's method finds the other four. So t may turn back on the way.
 """
 
 import math
@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from .._jit import kernel
 from .algebra import Four, dot, largest, moved, solve4
-from .equations import SUCTION, VOLUME, Held, held_row, system_at
+from .equations import VOLUME, Held, held_row, system_at
 from .solids import solid_of
 
 _FIRST_STEP, _LONGEST_STEP, _SHORTEST_STEP = 0.05, 0.3, 1e-8
@@ -185,9 +185,9 @@ def morph(start: Four, easy: Task, hard: Task) -> tuple[Four, bool]:
         if direction.t > 0.0 and point.t < 1.0 <= point.t + step * direction.t:
             length, kept, is_last = (1.0 - point.t) / direction.t, _ALONG_T, True
         ahead = Point(moved(point.z, length, direction.z), 1.0 if is_last else point.t + length * direction.t)
-        way, steps = 0.0, 0
+        way, steps = 0.0, _MOST_CORRECTIONS
         misses = _misses(ahead, easy, hard)
-        for steps in range(1, _MOST_CORRECTIONS + 1):
+        for corrections in range(1, _MOST_CORRECTIONS + 1):
             v = misses.values
             change = _solved(misses, kept, Four(-v[0], -v[1], -v[2], -v[3]))
             size = math.sqrt(dot(change.z, change.z) + change.t * change.t)
@@ -197,6 +197,7 @@ def morph(start: Four, easy: Task, hard: Task) -> tuple[Four, bool]:
             ahead = Point(moved(ahead.z, 1.0, change.z), ahead.t + change.t)
             way += size
             if size < _SMALL_CORRECTION:
+                steps = corrections
                 break
             misses = _misses(ahead, easy, hard)
         else:

@@ -7,7 +7,7 @@ import math
 
 from .._jit import kernel
 from .algebra import Four
-from .equations import SUCTION, VOLUME, are_equal
+from .equations import VOLUME
 from .follow import BRANCH_ENDS, ENDED, LOST, Nodes, Stance, beyond, follow, just_after, set_out
 from .guess import guess_at
 from .morph import Task, held_of, morph
@@ -40,7 +40,7 @@ def directly(task: Task) -> tuple[Stance, int]:
     held = held_of(task)
     z, is_met = newton_to(guess_at(held, task.separation), task.separation, held, _MOST_STEPS)
     stance, _curve = set_out(z, held, is_symmetric(task), 1.0)
-    return stance, stance.index if is_met and stance.opening > 0.0 else -1
+    return stance, stance.unstable if is_met and stance.opening > 0.0 else -1
 
 
 @kernel
@@ -50,9 +50,7 @@ def _easy(task: Task, alike: bool) -> Task:
     k1, k2 = (mean, mean) if alike else (task.curvature1, task.curvature2)
     if task.control == VOLUME:
         value = min(task.value, _EASY_VOLUME / mean**3)
-        separation = min(
-            task.separation * (value / task.value) ** (1.0 / 3.0), 0.5 * (math.pi * value) ** (1.0 / 3.0)
-        )
+        separation = min(task.separation * (value / task.value) ** (1.0 / 3.0), 0.5 * (math.pi * value) ** (1.0 / 3.0))
     else:
         value = max(task.value, mean)
         separation = min(task.separation, 0.1 / value)
@@ -64,7 +62,7 @@ def _woken(z: Four, task: Task, nodes: Nodes) -> tuple[Stance, bool]:
     """A stable bridge on the curve through any one: over the folds, both ways."""
     held, symmetric = held_of(task), is_symmetric(task)
     stance, _curve = set_out(z, held, symmetric, 1.0)
-    if stance.index == 0:
+    if stance.unstable == 0:
         return stance, True
     for going in (1.0, -1.0):
         stance, curve = set_out(z, held, symmetric, going)
@@ -73,7 +71,7 @@ def _woken(z: Four, task: Task, nodes: Nodes) -> tuple[Stance, bool]:
             if walk.event in (LOST, ENDED):
                 break
             stance, curve = beyond(walk)
-            if stance.index == 0:
+            if stance.unstable == 0:
                 return just_after(stance, curve), True
     return stance, False
 

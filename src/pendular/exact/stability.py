@@ -1,9 +1,9 @@
 r"""Stability without integration: the ladder of equations.
 
-The number of axisymmetric directions in which the energy of a bridge falls follows from the signs of four determinants of
-the rates of its equations. Each rung frees what the one before holds: both contact circles and the suction held, then
-one circle free, then both, then the volume held in the place of the suction. With Y1, Y2 the contact radii, X the length,
-h1 the height of the first cap, c1, c2 the contact equations, D, V, H separation, volume and curvature:
+The number of axisymmetric directions in which the energy of a bridge falls follows from the signs of four determinants
+of the rates of its equations. Each rung frees what the one before holds: both contact circles and the suction held,
+then one circle free, then both, then the volume held in the place of the suction. With Y1, Y2 the contact radii, X the
+length, h1 the height of the first cap, c1, c2 the contact equations, D, V, H separation, volume and curvature:
 
 .. math:: & d_0 = \det(\ln Y_1, \ln Y_2, X, H), \quad d_1 = \det(c_1, \ln Y_2, X - h_1, H), \\
           & d_2 = \det(c_1, c_2, D, H), \quad d_3 = \det(c_1, c_2, D, V)
@@ -12,8 +12,8 @@ and with k extrema of the radius strictly inside the arc, n_D = k if d0 has the 
 
 .. math:: n_s = n_D + [d_0 d_1 < 0] + [d_1 d_2 < 0], \qquad n_v = n_s - [d_2 d_3 > 0]
 
-unstable directions at fixed suction and at fixed volume. Sideways (the mode that shifts the liquid to one side) a bridge
-is unstable exactly where it pushes the solids apart.
+unstable directions at fixed suction and at fixed volume. Sideways (the mode that shifts the liquid to one side) a
+bridge is unstable exactly where it pushes the solids apart.
 """
 
 from typing import NamedTuple

@@ -16,8 +16,8 @@ and force are exact, so the two sides, which share the force, need not be alike.
 import math
 
 from .._jit import kernel
-from .contact_circle import contact_at, force_rate, wetted_arc_of
 from ._record import CONTACT_ANGLE, SEPARATION, SIZE_RATIO, SUCTION, Law
+from .contact_circle import contact_at, force_rate, wetted_arc_of
 
 __all__ = ["LAW", "force_star", "gap", "moments", "rupture_star"]
 

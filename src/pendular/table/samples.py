@@ -53,9 +53,7 @@ def _pairs(task: Task, control: Floats, size: Floats, side: int) -> Floats:
     return np.column_stack([control, 2.0 - larger, angle1, larger, angle2])
 
 
-def exact_curves(
-    task: Task, control: Floats, size: Floats, side: int, q: Floats, *, stretched: bool = False
-) -> Curves:
+def exact_curves(task: Task, control: Floats, size: Floats, side: int, q: Floats, *, stretched: bool = False) -> Curves:
     """Solve for the curves at controls and sizes, all at the same q."""
     order = np.argsort(q)
     found = Curves(np.empty(control.size), np.empty((control.size, q.size, 2)))
