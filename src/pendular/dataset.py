@@ -380,7 +380,7 @@ def _completed(task: Callable[[_Block], None], blocks: Sequence[_Block], workers
         address: Any = workers
         if not isinstance(workers, str):
             count = int(in_range("workers", scalar("workers", workers, ""), 1.0))
-            # One thread each: the kernels hold the interpreter's lock.
+            # One thread each: what was asked for is a number of processes.
             cluster = LocalCluster(n_workers=count, threads_per_worker=1, dashboard_address=None)
             address = stack.enter_context(cluster)
         client = stack.enter_context(Client(address))
