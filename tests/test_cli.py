@@ -321,6 +321,7 @@ def test_the_example_in_each_help_works(run, tmp_path, monkeypatch, arguments):
     assert [path.name for path in Path().iterdir()] == (["bridge.svg"] if "--plot" in example else [])
 
 
+@pytest.mark.needs("data")
 def test_dataset_writes_a_store_and_tells_what_it_holds(run, tmp_path):
     store = str(tmp_path / "bridges.zarr")
     arguments = ("dataset", store, "--shape", "40x30", "--ratio", "1", "--contact-angle", "20")

