@@ -14,6 +14,7 @@ PACKAGES = {
     "cuda": ("numba_cuda",),
     "page": ("nicegui", "playwright"),
     "docs": ("sphinx",),
+    "lint": ("mypy",),
 }
 
 # Files and folders that need one of them as a whole; a single test has the mark ``needs``.
