@@ -177,7 +177,7 @@ def rupture(
     one_of("limit", limit, ("fold", "stability"))
     control = control_of(suction, volume, humidity, liquid)
     if humidity is not None:
-        warn_kelvin(liquid.surface_tension / control.value, 0.0, stacklevel=2)
+        warn_kelvin(liquid.surface_tension / control.value, 0.0)
     problem = reduce(pair, control, liquid, 0.0)
     if _is_approximate(method):
         one_of("limit", limit, ("stability",) if (method, control.name) == ("table", "volume") else ("fold",))
@@ -222,7 +222,7 @@ def curve(
     count = int(in_range("points", quantity("points", points, ""), 5.0))
     control = control_of(suction, volume, humidity, liquid)
     if humidity is not None:
-        warn_kelvin(liquid.surface_tension / control.value, 0.0, stacklevel=2)
+        warn_kelvin(liquid.surface_tension / control.value, 0.0)
     problem = reduce(pair, control, liquid, 0.0)
     states = np.empty((len(problem.rows), count, len(State._fields)))
     statuses = np.empty(states.shape[:2], np.int8)
@@ -260,4 +260,4 @@ def _judge_humidity(
             relative = np.where(np.asarray(answer.exists), moved / np.asarray(answer.force) - 1.0, 0.0)
         change = np.maximum(change, np.abs(relative))
     radius = liquid.surface_tension / np.where(answer.exists, control.value, np.nan)
-    warn_kelvin(radius, change, stacklevel=3)
+    warn_kelvin(radius, change)

@@ -1,6 +1,5 @@
 """A table as its users see it: built, asked in SI units, saved and loaded."""
 
-import warnings
 from dataclasses import dataclass
 from importlib.metadata import version
 from math import inf
@@ -13,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .._check import angle, in_range, numbers, one_of, quantity, result_array, scalar
 from .._jit import in_chunks
+from .._warn import warn
 from .arrays import ENERGY, FORCE, LIQUID, RUPTURE, STIFFNESS, block_range, scalar_range
 from .build import build_grid, sample_range
 from .curve import ForceCurve, curve_of
@@ -336,11 +336,7 @@ def tabulate(
     reached_and_asked = (("force", bound.force, wanted), ("rupture distance", bound.rupture, 0.1 * wanted))
     for name, error, asked in reached_and_asked:
         if not error <= asked:
-            warnings.warn(
-                f"tolerance: the error of the {name} is {error:.1e}, not below {asked:.1e}",
-                ToleranceWarning,
-                stacklevel=2,
-            )
+            warn(f"tolerance: the error of the {name} is {error:.1e}, not below {asked:.1e}", ToleranceWarning)
     return Table(pair, control, (low, high), (low_ratio, high_ratio), wanted, bound, version("pendular"), grid)
 
 
