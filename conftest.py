@@ -22,6 +22,7 @@ FILES = {
     "src/pendular/dataset.py": "data",
     "src/pendular/interpolation.py": "data",
     "tests/test_dataset.py": "data",
+    "src/pendular/dem/lammps/attach.py": "lammps",
     "tests/test_lammps.py": "lammps",
     "tests/test_lammps_examples.py": "lammps",
     "src/pendular/web": "page",
