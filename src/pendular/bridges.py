@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._check import in_range, one_of, plain, quantity
+from ._check import one_of, plain, whole_number
 from .by_dataset import bridge_by_dataset, rupture_by_dataset
 from .by_law import bridge_by_law, rupture_by_law
 from .by_table import bridge_by_table, rupture_by_table
@@ -219,7 +219,7 @@ def curve(
     >>> int(np.argmax(c.separation)), bool(c.stable[0]), bool(c.stable[-1])
     (100, True, False)
     """
-    count = int(in_range("points", quantity("points", points, ""), 5.0))
+    count = whole_number("points", points, 5)
     control = control_of(suction, volume, humidity, liquid)
     if humidity is not None:
         warn_kelvin(liquid.surface_tension / control.value, 0.0)

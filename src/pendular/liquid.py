@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.constants import R as GAS_CONSTANT
 
-from ._check import in_range, quantity, scalar
+from ._check import in_range, instance, quantity, scalar
 from ._warn import warn
 
 __all__ = [
@@ -345,6 +345,7 @@ def _positive(name: str, value: object, unit: str) -> float:
 
 def _kelvin_pressure(liquid: Liquid, temperature: float | None) -> float:
     """ρ R T / M, the suction at which the humidity is 1/e, [Pa]."""
+    instance("liquid", liquid, Liquid)
     kelvin = _temperature_of(liquid, temperature)
     density, molar_mass = liquid.density, liquid.molar_mass
     if density is None or molar_mass is None or kelvin is None:

@@ -8,7 +8,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._check import broadcast, in_range, plain, quantity
+from ._check import broadcast, in_range, instance, plain, quantity
 from ._jit import in_chunks
 from ._warn import warn
 from .exact import arrays
@@ -71,8 +71,7 @@ def control_of(
         raise ValueError(
             f"control: {' and '.join(given) or 'none'} given; exactly one of suction, volume, humidity is needed"
         )
-    if not isinstance(liquid, Liquid):
-        raise ValueError(f"liquid: {liquid!r} is not a pendular.Liquid")
+    instance("liquid", liquid, Liquid)
     if humidity is not None:
         return Control("suction", np.asarray(suction_from_humidity(humidity, liquid)))
     if volume is not None:
@@ -82,6 +81,7 @@ def control_of(
 
 def reduce(pair: Pair, control: Control, liquid: Liquid, separation: ArrayLike) -> Problem:
     """Check what depends on several arguments, broadcast, and divide by the smaller radius."""
+    instance("pair", pair, Pair)
     gap = quantity("separation", separation, "m")
     (radius1, radius2), (angle1, angle2) = pair.radii, pair.contact_angles
     named = {"separation": gap, control.name: control.value, "radius[0]": radius1, "radius[1]": radius2}

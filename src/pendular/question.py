@@ -99,8 +99,9 @@ def read_question(
     from .bridges import Pair
 
     form = read_form(as_json, as_csv, plot)
-    radii = _radius("radius", radius), _radius("radius2", radius2 or radius)
-    degrees = _degrees("contact-angle", contact_angle), _degrees("contact-angle2", contact_angle2 or contact_angle)
+    radii = _radius("radius", radius), _radius("radius2", radius if radius2 is None else radius2)
+    second = contact_angle if contact_angle2 is None else contact_angle2
+    degrees = _degrees("contact-angle", contact_angle), _degrees("contact-angle2", second)
     control = _control(suction, volume, humidity)
     if humidity is not None and surface_tension is not None:
         raise ValueError("surface-tension: not enough for humidity, which needs the density of a liquid given by name")
@@ -167,7 +168,7 @@ def _liquid(name: str | None, temperature: str | None, surface_tension: str | No
     from .liquid import Liquid
 
     if surface_tension is None:
-        kelvin = read("temperature", temperature or _ROOM_TEMPERATURE, "K", _ROOM_TEMPERATURE)
+        kelvin = read("temperature", _ROOM_TEMPERATURE if temperature is None else temperature, "K", _ROOM_TEMPERATURE)
         return Liquid.water(kelvin) if name in (None, "water") else Liquid.named(str(name), kelvin)
     if name is not None or temperature is not None:
         unwanted = "temperature" if name is None else "liquid"

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._check import in_range, quantity
+from .._check import instance, whole_number
 from ..bridges import bridge, rupture
 from ..laws import Law, force_star, laws, rupture_star, rupture_work_star
 from ..liquid import Liquid
@@ -119,7 +119,7 @@ def compare(
     >>> print(f"{100 * own['zhao2020'].largest_error:.2f} %")
     3.87 %
     """
-    count = int(in_range("points", quantity("points", points, ""), float(_FEWEST)))
+    count = whole_number("points", points, _FEWEST)
     control = control_of(suction, volume, humidity, liquid)
     exact = _exact(pair, control, liquid, count)
     reduced = _reduce(exact, liquid)
@@ -135,6 +135,7 @@ def compare(
 
 def _exact(pair: Pair, control: Control, liquid: Liquid, count: int) -> Comparison:
     """Exact states, dense towards contact and rupture, where force and error change fastest."""
+    instance("pair", pair, Pair)
     if any(np.ndim(number) for number in (control.value, *pair.radii, *pair.contact_angles)):
         raise ValueError(f"pair: an array of radii, angles or {control.name} is given where single numbers are needed")
     held: dict[str, Any] = {control.name: float(control.value), "liquid": liquid}
