@@ -224,11 +224,12 @@ def load_dataset(path: StrPath) -> "xr.Dataset":
     source = as_path("path", path)
     if not source.exists():
         raise ValueError(f"path: {source} does not exist")
-    if source.suffix != ".nc":
-        dataset = _from_zarr(_zarr_path(source))
-    else:
-        with damage_told("path", str(source)):
-            dataset = xr.open_dataset(source, engine="h5netcdf")
+    with in_one_line("path", source, "read"):
+        if source.suffix != ".nc":
+            dataset = _from_zarr(_zarr_path(source))
+        else:
+            with damage_told("path", str(source)):
+                dataset = xr.open_dataset(source, engine="h5netcdf")
     check_dataset(dataset, "path", str(source))
     return dataset
 
