@@ -81,7 +81,7 @@ def assert_commands_do_what_they_show(text: str) -> None:
 def run_shell(lines: Iterable[str]) -> None:
     """Run the commands of a shell block, or see that they can be run."""
     for line in lines:
-        program, *arguments = shlex.split(line.removeprefix("uv run "))
+        program, *arguments = shlex.split(after_uv_run(line))
         if program == "pendular":
             status, _, errors = command_output(shlex.join([program, *arguments]))
             assert status == 0, f"{line}: {errors}"
@@ -92,6 +92,11 @@ def run_shell(lines: Iterable[str]) -> None:
                 run_script(ROOT / arguments[0], arguments[1:])
         else:
             assert can_be_run(program, arguments), line
+
+
+def after_uv_run(line: str) -> str:
+    """Command that uv starts, with whatever it installs for it."""
+    return re.sub(r"^uv run (--(group|extra) \w+ )*", "", line)
 
 
 def can_be_run(program: str, arguments: list[str]) -> bool:

@@ -5,7 +5,6 @@ makes Python of the scalar kernels as well.
 """
 
 import sys
-from importlib.util import find_spec
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -105,8 +104,6 @@ def run_page(folder):
 
 def compile_to_ptx(folder):
     """Machine code for a GPU that need not be here: of the loops, and of a kernel as users write them."""
-    if find_spec("numba_cuda") is None:
-        sys.exit("numba-cuda is not installed")
     import numba.cuda.cuda_paths
     import numba.cuda.dispatcher
     from numba.cuda.cudadrv.nvvm import NVVM

@@ -393,6 +393,9 @@ _HUMIDITY = "; 50 % are 0.5, and saturation is a suction of 0"
         (("--contact-angle", "-5deg"), f"contact-angle: '-5deg' {_NO_ANGLE}"),
         (("--contact-angle", "nan"), f"contact-angle: 'nan' {_NO_ANGLE}"),
         (("--contact-angle2", "4rad"), f"contact-angle2: '4rad' {_NO_ANGLE}"),
+        (("--radius2", ""), "radius2: '' does not begin with a number; write it like 50um"),
+        (("--contact-angle2", ""), "contact-angle2: '' does not begin with a number; write it like 20deg"),
+        (("--temperature", ""), "temperature: '' does not begin with a number; write it like 20degC"),
         (("--suction", "20"), "suction: '20' has no unit; write it like 20kPa"),
         (("--suction", "inf Pa"), "suction: inf Pa is not finite"),
         (("--volume", "5pL"), f"control: suction and volume given; {_ONE_CONTROL}"),
@@ -549,6 +552,7 @@ def test_the_example_in_each_help_works(run, tmp_path, monkeypatch, arguments):
     assert [path.name for path in Path().iterdir()] == (["bridge.svg"] if "--plot" in text.split("Example:")[1] else [])
 
 
+@pytest.mark.needs("data")
 def test_dataset_writes_a_store_and_tells_what_it_holds(run, tmp_path):
     store = str(tmp_path / "bridges.zarr")
     arguments = ("dataset", store, "--shape", "40x30", "--ratio", "1", "--contact-angle", "20")

@@ -103,6 +103,7 @@ def test_the_page_does_what_it_shows(folder):
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.needs("cuda")
 def test_the_kernels_compile_for_a_gpu(folder):
     done = run("compile", folder, NUMBA_FORCE_CUDA_CC="8.0")
     if "is not installed" in done.stderr:

@@ -1,19 +1,22 @@
 """The data base: its numbers against independent solutions, its stores, its interpolation."""
 
 import re
+import subprocess
+import sys
 from collections import Counter
 
+import dask
 import numpy as np
 import pytest
 import xarray as xr
 import zarr
 from distributed import LocalCluster
+from pendular.dataset_grid import GridPoint, Solids, grid_point
 
 import pendular as pl
 from oracles.young_laplace import EXACT, Solid, connect, state
 from pendular import dataset as ds
 from pendular import interpolation
-from pendular.exact.grid import GridPoint, Solids, grid_point
 
 UNIT = pl.Liquid(surface_tension=1.0)
 SMALL = {"shape": (24, 16), "size_ratio": (1.0, 8.0), "contact_angle": np.deg2rad([0.0, 40.0])}
@@ -269,6 +272,126 @@ def test_a_running_scheduler_is_used(tmp_path, short_chunks, capsys):
     shown = capsys.readouterr()
     assert "100%" in shown.err
     assert shown.out == ""
+
+
+# -- damage ----------------------------------------------------------------------------------------------------------
+
+
+def test_a_scheduler_that_is_not_there(tmp_path):
+    with dask.config.set({"distributed.comm.timeouts.connect": "1s"}), refused("workers: 'nohost:1' cannot be reached"):
+        ds.make_dataset(tmp_path / "bridges.zarr", workers="nohost:1", **SMALL)
+    assert not list(tmp_path.iterdir())
+
+
+def flip(content):
+    """One bit changed in the middle."""
+    return content[: len(content) // 2] + bytes([content[len(content) // 2] ^ 1]) + content[len(content) // 2 + 1 :]
+
+
+def chunks_of(store, variable):
+    return sorted(path for path in (store / variable / "c").rglob("*") if path.is_file())
+
+
+@pytest.mark.parametrize("variable", ["force_star", "size_ratio", "contact_angle"])
+def test_a_missing_chunk_is_never_nan(tmp_path, short_chunks, variable):
+    path = tmp_path / "bridges.zarr"
+    ds.make_dataset(path, **SMALL)
+    chunks_of(path, variable)[0].unlink()
+    with refused(f"path: {path} is damaged: chunks of {variable} are missing; make_dataset mends it"):
+        pl.load_dataset(path)
+
+
+@pytest.mark.parametrize("damage", [lambda content: b"", flip, lambda content: content[:-5], None])
+def test_a_damaged_chunk_is_computed_anew(tmp_path, short_chunks, damage):
+    path = tmp_path / "bridges.zarr"
+    ds.make_dataset(path, **SMALL)
+    for chunk in chunks_of(path, "force_star")[::3]:
+        chunk.write_bytes(damage(chunk.read_bytes())) if damage else chunk.unlink()
+    if damage:
+        with refused("dataset: it is damaged, or no data base: "):
+            pl.interpolate(pl.load_dataset(path), "suction", 10.0, 0.0, 1.0, 0.0)
+        with refused("dataset: it is damaged, or no data base: "):
+            pl.save_dataset(pl.load_dataset(path), tmp_path / "bridges.nc")
+        assert [entry.name for entry in tmp_path.iterdir()] == ["bridges.zarr"]
+    assert ds.make_dataset(path, **SMALL).identical(ds.make_dataset(**SMALL))
+
+
+@pytest.mark.parametrize("content", [b"", b"{", b"{}", b'{"zarr_format": 3, "node_type": "group"}'])
+def test_a_store_that_is_none(tmp_path, content):
+    path = tmp_path / "bridges.zarr"
+    path.mkdir()
+    (path / "zarr.json").write_bytes(content)
+    for ask in (pl.load_dataset, lambda path: ds.make_dataset(path, **SMALL)):
+        with pytest.raises(ValueError, match=f"^path: {re.escape(str(path))} [^\n]*$"):
+            ask(path)
+
+
+@pytest.mark.parametrize("damage", [lambda b: b"", lambda b: b[: len(b) // 2], lambda b: b"no data base"])
+def test_a_damaged_file(tmp_path, damage):
+    path = tmp_path / "bridges.nc"
+    pl.save_dataset(ds.make_dataset(**SMALL), path)
+    path.write_bytes(damage(path.read_bytes()))
+    with pytest.raises(ValueError, match=rf"^path: {re.escape(str(path))} is damaged, or no data base: [^\n]*$"):
+        pl.load_dataset(path)
+
+
+def test_a_changed_bit_in_a_file(tmp_path):
+    path = tmp_path / "bridges.nc"
+    data = ds.make_dataset(**SMALL)
+    pl.save_dataset(data, path)
+    content = path.read_bytes()
+    largest = np.nanmax(data.force_star).tobytes()
+    assert content.count(largest) > 0
+    path.write_bytes(content.replace(largest, flip(largest)))
+    with refused("dataset: it is damaged, or no data base: "):
+        pl.interpolate(pl.load_dataset(path), "suction", 10.0, 0.0, SMALL["size_ratio"], 0.0)
+
+
+def test_a_file_of_something_else(tmp_path):
+    path = tmp_path / "other.nc"
+    xr.Dataset({"depth": ("x", [1.0])}).to_netcdf(path, engine="h5netcdf")
+    with refused(f"path: {path} lacks size_ratio, and is no data base of make_dataset"):
+        pl.load_dataset(path)
+
+
+@pytest.mark.parametrize("name", ["bridges.zarr", "bridges.nc"])
+def test_a_place_that_cannot_be_written(tmp_path, name):
+    (tmp_path / "file").touch()
+    path = tmp_path / "file" / name
+    data = ds.make_dataset(**SMALL)
+    with refused(f"path: '{path}' cannot be written: "):
+        pl.save_dataset(data, path)
+    if path.suffix == ".zarr":
+        with refused(f"path: '{path}' cannot be written: "):
+            ds.make_dataset(path, **SMALL)
+
+
+def test_two_runs_may_make_one_store(tmp_path):
+    path = tmp_path / "bridges.zarr"
+    code = (
+        f"from pendular import make_dataset as m; m({str(path)!r}, shape=(24, 16), size_ratio=1.0, contact_angle=0.0)"
+    )
+    runs = [subprocess.Popen([sys.executable, "-W", "error", "-c", code], stderr=subprocess.PIPE) for _ in range(4)]
+    assert [run.communicate()[1] for run in runs] == [b""] * 4
+    assert [run.returncode for run in runs] == [0] * 4
+    alone = ds.make_dataset(shape=(24, 16), size_ratio=1.0, contact_angle=0.0)
+    assert alone.identical(pl.load_dataset(path))
+    assert [entry.name for entry in tmp_path.iterdir()] == ["bridges.zarr"]
+
+
+def test_of_two_that_create_a_store_one_is_in_time(tmp_path, monkeypatch):
+    path = tmp_path / "bridges.zarr"
+    create = ds._to_zarr
+
+    def slow(*arguments, **options):
+        if not path.exists():
+            monkeypatch.setattr(ds, "_to_zarr", create)
+            ds.make_dataset(path, **SMALL)
+        create(*arguments, **options)
+
+    monkeypatch.setattr(ds, "_to_zarr", slow)
+    assert ds.make_dataset(path, **SMALL).identical(ds.make_dataset(**SMALL))
+    assert [entry.name for entry in tmp_path.iterdir()] == ["bridges.zarr"]
 
 
 # -- interpolation ---------------------------------------------------------------------------------------------------

@@ -11,6 +11,7 @@ from tools.code_blocks import code_blocks
 
 import pendular as pl
 from documents import (
+    after_uv_run,
     assert_commands_do_what_they_show,
     assert_python_prints_what_it_says,
     can_be_run,
@@ -34,6 +35,8 @@ ELSEWHERE = {
     "howto/gpu.md": "test_cuda.py",
 }
 OWN = [name for name in PAGES if name not in ELSEWHERE]
+GROUPS = {"lammps.md": "lammps", "howto/own_data.md": "data"}  # what their code needs
+RUN_HERE = [pytest.param(name, marks=pytest.mark.needs(GROUPS[name])) if name in GROUPS else name for name in OWN]
 
 
 @pytest.mark.parametrize("name", sorted(ELSEWHERE.keys() & PAGES.keys()))
@@ -45,7 +48,7 @@ def text_of(name: str) -> str:
     return PAGES[name].read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("name", OWN)
+@pytest.mark.parametrize("name", RUN_HERE)
 def test_code_of_the_page_does_what_it_shows(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "made").mkdir()
@@ -96,7 +99,7 @@ def test_commands_for_contributors_can_be_run():
     ]
     assert len(in_text) > 10
     for line in filter(None, in_text + in_blocks):
-        words = shlex.split(line.removeprefix("uv run ").removeprefix("--group docs "))
+        words = shlex.split(after_uv_run(line))
         if words[:2] == ["python", "-m"]:
             assert (ROOT / Path(*words[2].split("."))).with_suffix(".py").is_file(), line
         else:
@@ -115,8 +118,10 @@ def test_citation_is_of_this_version():
     assert f"\nversion: {pl.__version__}\n" in citation
 
 
+@pytest.mark.needs("docs")
 def test_a_page_that_loads_from_elsewhere_is_found():
-    site = pytest.importorskip("tools.site", reason="the site's tools are not installed")
+    from tools import site
+
     assert site.loaded_from_outside('<script src="https://host/x.js">') == ["https://host/x.js"]
     assert site.loaded_from_outside('<link rel="stylesheet" href="//host/x.css">') == ["//host/x.css"]
     assert site.loaded_from_outside('<a href="https://host"><img src="made/x.svg">') == []

@@ -5,11 +5,11 @@ import math
 import mpmath
 import numpy as np
 import pytest
+from pendular.exact.carlson import carlson_fd
+from pendular.exact.contact import cap_volume, contact_at, force_at, force_rate, wetted_arc_of, wetted_area
 from scipy.integrate import quad
 from scipy.special import elliprd, elliprf
 
-from pendular.exact.carlson import carlson_fd
-from pendular.exact.contact import cap_volume, contact_at, force_at, force_rate, wetted_arc_of, wetted_area
 from pendular.exact.meridian import (
     arc_across,
     arc_from_neck,

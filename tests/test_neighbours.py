@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-
 from pendular.exact.arrays import STABLE, suction_range
 from pendular.exact.equilibrium import State
 from pendular.exact.fractions import fractions_range

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from pendular.exact.arrays import AT_FOLD, STABLE, suction_range
+from pendular.exact.equilibrium import State
 
 from oracles.laws_mpmath import PENDULAR2026_COEFFICIENTS as PRINTED
 from oracles.laws_mpmath import pendular2026 as oracle
-from pendular.exact.arrays import AT_FOLD, STABLE, suction_range
-from pendular.exact.equilibrium import State
 from pendular.laws import pendular2026
 from pendular.laws.pendular2026 import COEFFICIENTS, LAW, evaluate, force_star, rupture_star
 

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-
-from pendular._jit import in_chunks
 from pendular.exact.arrays import AT_FOLD, STABLE, UNSTABLE, path_range, suction_range
 from pendular.exact.equilibrium import State
 from pendular.exact.middle import VOLUME
 from pendular.exact.states import FAILED, FOUND, NO_BRIDGE
+
+from pendular._jit import in_chunks
 
 SEED = 622634
 D, FORCE, V, STABLE_FLAG = (State._fields.index(name) for name in ("separation", "force", "volume", "stable"))

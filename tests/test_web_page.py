@@ -17,12 +17,12 @@ import urllib.request
 
 import numpy as np
 import pytest
+from playwright import sync_api as playwright
 
 import pendular as pl
 from pendular.cli import main
 from pendular.units import read, show
 
-playwright = pytest.importorskip("playwright.sync_api", reason="the page is tested with playwright")
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 pytestmark = [pytest.mark.long, pytest.mark.skipif(CHROMIUM is None, reason="no chromium on the path")]
 

@@ -1,6 +1,6 @@
 """YADE itself, run with the tables that are written for it.
 
-    apt-get install -y --no-install-recommends yade && uv run pytest -m yade
+    apt-get install -y --no-install-recommends yade && uv run --group test pytest -m yade
 
 A crash of YADE leaves no answer, and a missing table is a mere warning of its: what counts are the forces that it
 reports.

@@ -60,8 +60,9 @@ with open("docs/conformance/bridges.csv", encoding="utf-8") as file:
 print(len(cases), cases[0]["force [N]"])  # {count} {first}
 ```
 
-`uv run pytest tests/test_conformance.py -s -k library` prints how near the solver of this library comes. A program that
-uses a closed form cannot come nearer than that form: the errors of the published ones are in [laws.md](../laws.md).
+`uv run --group test pytest tests/test_conformance.py -s -k library` prints how near the solver of this library comes. A
+program that uses a closed form cannot come nearer than that form: the errors of the published ones are in
+[laws.md](../laws.md).
 Both files are written by `uv run python -m tools.conformance`.
 
 ## Formulas as coded

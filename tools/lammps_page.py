@@ -19,7 +19,7 @@ COUPLING = """\
 
 `pendular.dem.lammps` puts exact bridges into a running LAMMPS: they form at contact, stay to the rupture distance, and
 add their forces, energies and stresses to those of the contacts. Nothing has to be compiled. This page is written by
-`uv run python -m tools.lammps_page`.
+`uv run --extra lammps python -m tools.lammps_page`.
 
 **Walls are dry.** Bridges join grains to grains. A fix `wall/gran`, or any other whose style begins with `wall`, holds
 no liquid, and a warning says so. A wall that is to be wet is made of grains, as in
@@ -180,7 +180,7 @@ PACKING = """
 ![Force of LAMMPS and YADE on the exact curve, from contact to rupture, and their errors](images/two_grains.svg)
 
 The error of LAMMPS is that of the table. YADE interpolates linearly in files of finite size, and breaks the bridge
-where a block of the file ends. `uv run pytest tests/test_lammps.py` compares packings with
+where a block of the file ends. `uv run --group test --group lammps pytest tests/test_lammps.py` compares packings with
 [`contact_forces`](reference/contacts.md), checks energy, momentum and liquid, restarts, and runs several processes.
 
 ## What bridges do to a packing

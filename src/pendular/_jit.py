@@ -6,44 +6,22 @@ NumPy's error model: a division by zero gives inf or NaN, as NaN marks "outside 
 
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numba import get_num_threads, njit
 from numpy.typing import NDArray
 
+from ._cache import keep_on_disk
+
 __all__ = ["element", "in_chunks", "kernel", "summing_kernel"]
 
 # Sums may be added up in any order, several at once; NaN, infinity and every other rule of arithmetic stay.
 _ANY_ORDER = {"reassoc", "contract"}
 
-_HOME = Path(__file__).parent
-
-
-@cache
-def _stamp_of(*folders: str) -> tuple[float, int]:
-    """Latest change and total size of the files in folders of kernels."""
-    stats = [path.stat() for folder in folders for path in (_HOME / folder).glob("*.py")]
-    return max(stat.st_mtime for stat in stats), sum(stat.st_size for stat in stats)
-
-
-def _folders_of(file: Path) -> tuple[str, ...]:
-    """Folders whose kernels one in this file may use."""
-    if file.parent == _HOME / "exact":
-        return ("exact",)
-    shared = ("exact", "solids", "laws", "table")
-    return shared if file.parent.name in shared else (*shared, "", str(file.parent))
-
 
 def kernel(function: Callable[..., Any]) -> Any:
-    """Compile a kernel, free of the interpreter's lock, and outdate its cached code when a kernel it may use changes.
-
-    Numba looks only at the file of the function itself, and would go on using machine code that contains the
-    former version of a kernel from another file. The exact solver uses no other folder; all else may use all, and what
-    is outside of these also the files of the package itself and those beside its own.
-    """
+    """Compile a kernel, free of the interpreter's lock, and keep its code until a source that enters it changes."""
     return _compiled(function, False)
 
 
@@ -53,10 +31,9 @@ def summing_kernel(function: Callable[..., Any]) -> Any:
 
 
 def _compiled(function: Callable[..., Any], fastmath: bool | set[str]) -> Any:
-    dispatcher = njit(cache=True, error_model="numpy", nogil=True, fastmath=fastmath)(function)
-    cache_file = getattr(getattr(dispatcher, "_cache", None), "_cache_file", None)  # absent with the compiler off
-    if cache_file is not None:
-        cache_file._source_stamp = _stamp_of(*_folders_of(Path(function.__code__.co_filename)))
+    dispatcher = njit(error_model="numpy", nogil=True, fastmath=fastmath)(function)
+    if dispatcher is not function:  # it is with the compiler off
+        keep_on_disk(dispatcher)
     return dispatcher
 
 

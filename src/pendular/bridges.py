@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._check import in_range, one_of, plain, quantity
+from ._check import one_of, plain, whole_number
 from .by_dataset import bridge_by_dataset, rupture_by_dataset
 from .by_law import bridge_by_law, rupture_by_law
 from .by_table import bridge_by_table, rupture_by_table
@@ -179,7 +179,7 @@ def rupture(
     one_of("limit", limit, ("stability", "fold"))
     control = control_of(suction, volume, humidity, liquid)
     if humidity is not None:
-        warn_kelvin(liquid.surface_tension / control.value, 0.0, stacklevel=2)
+        warn_kelvin(liquid.surface_tension / control.value, 0.0)
     problem = reduce(pair, control, liquid, 0.0)
     if _is_approximate(method):
         one_of("end", end, ("upper",))
@@ -226,10 +226,10 @@ def curve(
     (100, True, False)
     """
     one_of("limit", limit, ("stability", "fold"))
-    count = int(in_range("points", quantity("points", points, ""), 5.0))
+    count = whole_number("points", points, 5)
     control = control_of(suction, volume, humidity, liquid)
     if humidity is not None:
-        warn_kelvin(liquid.surface_tension / control.value, 0.0, stacklevel=2)
+        warn_kelvin(liquid.surface_tension / control.value, 0.0)
     problem = reduce(pair, control, liquid, 0.0)
     return trace(problem, count, limit)
 
@@ -259,4 +259,4 @@ def _judge_humidity(
             relative = np.where(np.asarray(answer.exists), moved / np.asarray(answer.force) - 1.0, 0.0)
         change = np.maximum(change, np.abs(relative))
     radius = liquid.surface_tension / np.where(answer.exists, control.value, np.nan)
-    warn_kelvin(radius, change, stacklevel=3)
+    warn_kelvin(radius, change)

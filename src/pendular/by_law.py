@@ -7,11 +7,10 @@ distance of its volume; those of one volume pass the rupture distance of their s
 on no law at constant suction speaks of them.
 """
 
-import warnings
-
 import numpy as np
 from numpy.typing import NDArray
 
+from ._warn import warn
 from .exact.equations import SUCTION
 from .laws import Law, force_star, laws, rupture_star
 from .laws.ranges import Outside, first_outside
@@ -125,4 +124,4 @@ def _warn_outside(law: Law, variables: dict[str, Floats]) -> None:
             f"{law.name}: {outside.name} {outside.value:.6g} is outside the range {outside.low:.6g} to "
             f"{outside.high:.6g} of the law; {law.valid_text}"
         )
-        warnings.warn(RangeWarning(told, outside), stacklevel=4)
+        warn(RangeWarning(told, outside))

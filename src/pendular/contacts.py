@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._check import in_range, quantity, scalar
+from ._check import in_range, instance, quantity, scalar, unmasked
 from ._jit import in_chunks, kernel
 from .table import Table
 
@@ -220,6 +220,7 @@ def contact_forces(
     >>> print(f"{pulled.force[0, 0]:.3e} {pulled.force[1, 0]:.3e}")
     6.639e-06 -6.639e-06
     """
+    instance("table", table, Table)
     centres, sizes = _particles(positions, radii)
     particles = len(sizes)
     contacts, order = _in_order("pairs", pairs, particles)
@@ -287,6 +288,7 @@ def contact_energy(
     >>> print(f"{energy:.3e}")
     -2.675e-11
     """
+    instance("table", table, Table)
     centres, sizes = _particles(positions, radii)
     bridges = _checked(state, len(sizes))
     if not bridges.control.size:
@@ -339,7 +341,7 @@ def _particles(positions: ArrayLike, radii: ArrayLike) -> tuple[Floats, Floats]:
 
 def _in_order(name: str, pairs: Any, particles: int) -> tuple[Integers, Integers | slice]:
     """Pairs in the order of their particles, and where each of them stood."""
-    array = np.asarray(pairs)
+    array = np.asarray(unmasked(name, pairs))
     if array.size == 0:
         array = np.empty((0, 2), np.int64)
     if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
@@ -374,6 +376,7 @@ def _checked(state: BridgeState | None, particles: int) -> BridgeState:
     """State with its bridges in the order of their particles."""
     if state is None:
         return BridgeState(np.empty((0, 2), np.int64), np.empty(0))
+    instance("state", state, BridgeState)
     pairs, order = _in_order("state.pairs", state.pairs, particles)
     control = _per_contact("state.control", state.control, len(pairs), "")
     return BridgeState(pairs, np.full(len(pairs), control) if control.ndim == 0 else control[order])

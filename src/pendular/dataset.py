@@ -5,7 +5,7 @@ ratio, for pairs of spheres of one contact angle. All lengths are over the Derja
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 from functools import partial
 from importlib.metadata import version
 from os import PathLike
@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._check import angle, in_range, quantity, scalar
+from ._check import angle, as_path, in_range, instance, quantity, whole_number
+from ._files import in_one_line, whole
 from .dataset_grid import GridPoint, Solids, fill_grid
 
 if TYPE_CHECKING:
@@ -45,6 +46,7 @@ _LARGEST_FILLING = np.deg2rad(60.0)
 _DECADES = 5.0  # of half-filling angle: down to the rupture at H* = 2e7
 _CROWDING = 3.0  # 1 - Q is the power of an even spacing: at H* = 1e6 a bridge at contact has 1 - Q = 7e-4
 _POINTS_PER_CHUNK = 2**18  # about 30 MB of all variables: what one worker holds
+_ALL_CHUNKS = {"array.write_empty_chunks": True}  # so that a chunk that is not there was lost
 _COMPUTED = "computed"  # set for a block of rows after all of its variables are written
 
 _COORDINATES = {
@@ -106,7 +108,8 @@ def make_dataset(
     ----------
     path : path-like, optional
         A Zarr store, ``*.zarr``, to compute into chunk by chunk. If it holds part of the same data base, the chunks
-        that are there are kept. Without it the data base is computed in memory.
+        that are there and whole are kept, and several runs may fill it at once. Without it the data base is computed
+        in memory.
     shape : tuple of int
         Half-filling angles and neck ratios, at least 8 each.
     size_ratio : array_like
@@ -127,7 +130,7 @@ def make_dataset(
     Raises
     ------
     ValueError
-        For bad input, or if the store holds something else.
+        For bad input, if the store holds something else or cannot be written, or if the workers cannot be reached.
 
     Notes
     -----
@@ -158,13 +161,13 @@ def make_dataset(
             raise ValueError(f"workers: {workers!r} given without a path; workers write into a Zarr store")
         return _in_memory(grid, progress)
     store = _zarr_path(path)
-    if store.exists():
+    with _hands(workers) as done_by, in_one_line("path", store):
+        if not store.exists():
+            _create(store, grid)
         _refuse_other(store, grid)
-    else:
-        _create(store, grid)
-    blocks = _missing(store)
-    for _ in _tracked(_completed(partial(_fill_block, str(store)), blocks, workers), len(blocks), progress):
-        pass
+        blocks = _missing(store)
+        for _ in _tracked(done_by(partial(_fill_block, str(store)), blocks), len(blocks), progress):
+            pass
     return load_dataset(store)
 
 
@@ -183,15 +186,18 @@ def save_dataset(dataset: "xr.Dataset", path: StrPath) -> None:
     ValueError
         If the suffix is another one, or the path exists.
     """
-    target = Path(path)
+    target = as_path("path", path)
     if target.exists():
         raise ValueError(f"path: {target} exists already")
-    if target.suffix == ".zarr":
-        dataset.to_zarr(target, mode="w-", consolidated=False)
-    elif target.suffix == ".nc":
-        dataset.chunk({}).to_netcdf(target, engine="h5netcdf")
-    else:
+    if target.suffix not in (".zarr", ".nc"):
         raise ValueError(f"path: {target.name} ends neither in .zarr nor in .nc")
+    check_dataset(dataset)
+    with in_one_line("path", target), whole(target) as draft, damage_told("dataset", "it"):
+        if target.suffix == ".zarr":
+            _to_zarr(dataset, draft)
+        else:
+            checked = {name: {"fletcher32": True} for name in dataset.data_vars}
+            dataset.chunk({}).to_netcdf(draft, engine="h5netcdf", encoding=checked)
 
 
 def load_dataset(path: StrPath) -> "xr.Dataset":
@@ -210,22 +216,47 @@ def load_dataset(path: StrPath) -> "xr.Dataset":
     Raises
     ------
     ValueError
-        If there is none, or a part of it has not been computed yet.
+        If there is none, it is damaged, or a part of it has not been computed yet.
     """
     import xarray as xr
 
-    source = Path(path)
+    source = as_path("path", path)
     if not source.exists():
         raise ValueError(f"path: {source} does not exist")
-    if source.suffix == ".nc":
-        return xr.open_dataset(source, engine="h5netcdf")
-    dataset: xr.Dataset = xr.open_zarr(_zarr_path(source), chunks=None, consolidated=False)
-    if _COMPUTED in dataset:
-        done = dataset[_COMPUTED].to_numpy()
-        if not done.all():
-            raise ValueError(f"path: only {done.mean():.1%} of {source} is computed; make_dataset continues it")
-        dataset = dataset.drop_vars(_COMPUTED)
+    with in_one_line("path", source, "read"):
+        if source.suffix != ".nc":
+            dataset = _from_zarr(_zarr_path(source))
+        else:
+            with damage_told("path", str(source)):
+                dataset = xr.open_dataset(source, engine="h5netcdf")
+    check_dataset(dataset, "path", str(source))
     return dataset
+
+
+def check_dataset(dataset: object, name: str = "dataset", place: str = "it") -> None:
+    """Refuse what is no data base of this kind."""
+    import xarray as xr
+
+    instance(name, dataset, xr.Dataset)
+    held = dataset.variables  # type: ignore[attr-defined]
+    for variable in (*_DIMS, *(variable for variable, *_ in _VARIABLES)):
+        if variable not in held:
+            raise ValueError(f"{name}: {place} lacks {variable}, and is no data base of make_dataset")
+
+
+@contextmanager
+def damage_told(name: str, place: str) -> Iterator[None]:
+    """Refuse in one line what cannot be read, whichever of the libraries below finds that, and however it says so.
+
+    An error of the system, like that of a full disk, stays what it is.
+    """
+    try:
+        yield
+    except Exception as error:
+        if isinstance(error, OSError) and error.errno is not None and not isinstance(error, FileNotFoundError):
+            raise
+        reason = str(error).partition("\n")[0] or type(error).__name__
+        raise ValueError(f"{name}: {place} is damaged, or no data base: {reason}") from error
 
 
 # -- the grid --------------------------------------------------------------------------------------------------------
@@ -308,14 +339,14 @@ def _in_memory(grid: dict[str, Floats], progress: bool) -> "xr.Dataset":
 
 
 def _zarr_path(path: StrPath) -> Path:
-    store = Path(path)
+    store = as_path("path", path)
     if store.suffix != ".zarr":
         raise ValueError(f"path: {store.name} does not end in .zarr; save_dataset writes other formats")
     return store
 
 
 def _create(store: Path, grid: dict[str, Floats]) -> None:
-    """Write coordinates and attributes; the arrays stay empty. A store that is there is whole: it is moved in place."""
+    """Write coordinates and attributes; the arrays stay empty. Of several runs that do so at once one is in time."""
     import dask.array as da
 
     shape = tuple(axis.size for axis in grid.values())
@@ -324,16 +355,52 @@ def _create(store: Path, grid: dict[str, Floats]) -> None:
     empty = da.full(shape, np.nan, chunks=chunks)
     dataset = _labelled(grid, [empty] * len(_VARIABLES))
     dataset[_COMPUTED] = (_DIMS[:3], da.zeros(shape[:3], dtype=bool, chunks=chunks[:3]))
-    draft = store.with_name(f"{store.name}.new")
-    dataset.to_zarr(draft, mode="w", compute=False, consolidated=False)
-    draft.rename(store)
+    try:
+        with whole(store) as draft:
+            _to_zarr(dataset, draft, compute=False)
+    except OSError:
+        if not store.is_dir():
+            raise
+
+
+def _to_zarr(dataset: "xr.Dataset", path: Path, *, compute: bool = True) -> None:
+    """Write a store in which every chunk carries a checksum, and none is left out for being empty."""
+    import zarr
+    from zarr.codecs import ZstdCodec
+
+    checked: Any = {
+        name: {"compressors": (ZstdCodec(checksum=True),), "chunks": array.encoding.get("chunks")}
+        for name, array in dataset.variables.items()
+    }
+    options: Any = {"mode": "w-", "compute": compute, "consolidated": False, "encoding": checked}
+    with zarr.config.set(_ALL_CHUNKS):
+        dataset.to_zarr(path, **options)
+
+
+def _from_zarr(store: Path) -> "xr.Dataset":
+    """Open a store in which every chunk is there; Zarr itself would give NaN for one that is not."""
+    import xarray as xr
+    import zarr
+
+    with damage_told("path", str(store)):
+        group: Any = zarr.open_group(store, mode="r")
+        dataset: xr.Dataset = xr.open_zarr(store, chunks=None, consolidated=False)
+        done = group[_COMPUTED][:] if _COMPUTED in group else np.ones(1, bool)
+        absent = [name for name, array in group.arrays() if array.nchunks_initialized < array.nchunks]
+    if not done.all():
+        raise ValueError(f"path: only {done.mean():.1%} of {store} is computed; make_dataset continues it")
+    if absent:
+        raise ValueError(f"path: {store} is damaged: chunks of {', '.join(absent)} are missing; make_dataset mends it")
+    return dataset.drop_vars(_COMPUTED, errors="ignore")
 
 
 def _refuse_other(store: Path, grid: dict[str, Floats]) -> None:
     """Refuse to continue a store of another grid, or of another version, whose numbers might differ."""
     import xarray as xr
 
-    with xr.open_zarr(store, chunks=None, consolidated=False) as found:
+    with damage_told("path", str(store)):
+        opened = xr.open_zarr(store, chunks=None, consolidated=False)
+    with opened as found:
         if found.attrs != _provenance():
             raise ValueError(f"path: {store} was written by {found.attrs.get('source', 'another program')}")
         if any(not np.array_equal(found[name], values) for name, values in grid.items()):
@@ -341,18 +408,27 @@ def _refuse_other(store: Path, grid: dict[str, Floats]) -> None:
 
 
 def _missing(store: Path) -> list[_Block]:
-    """Blocks of a store that have not been computed, all of a pair in turn."""
+    """Blocks of a store that have not been computed or cannot be read, all of a pair in turn."""
     import zarr
 
-    computed: Any = zarr.open_array(store, path=_COMPUTED, mode="r")
-    done = np.asarray(computed[:], bool)
-    rows = computed.chunks[-1]
+    with damage_told("path", str(store)):
+        group: Any = zarr.open_group(store, mode="r")
+        done = np.asarray(group[_COMPUTED][:], bool)
+        rows = group[_COMPUTED].chunks[-1]
     blocks = (
         _Block(ratio, angle, start, min(start + rows, done.shape[2]))
         for ratio, angle in np.ndindex(*done.shape[:2])
         for start in range(0, done.shape[2], rows)
     )
-    return [block for block in blocks if not done[block.region].all()]
+    return [block for block in blocks if not (done[block.region].all() and _is_whole(group, block))]
+
+
+def _is_whole(group: Any, block: _Block) -> bool:
+    """Whether all chunks of a block are there, for a missing one reads as NaN, and none is damaged."""
+    try:
+        return all(np.isfinite(group[name][block.region]).any() for name, *_ in _VARIABLES)
+    except Exception:  # each codec raises an error of its own
+        return False
 
 
 def _fill_block(store: str, block: _Block) -> None:
@@ -363,28 +439,40 @@ def _fill_block(store: str, block: _Block) -> None:
     ratios, angles, fillings, neck_ratios = (np.asarray(group[name][:]) for name in _DIMS)
     rows = fillings[block.start : block.stop]
     values = _compute(float(ratios[block.ratio]), float(angles[block.angle]), rows, neck_ratios)
-    for (name, *_), array in zip(_VARIABLES, values, strict=True):
-        group[name][block.region] = array
-    group[_COMPUTED][block.region] = True
+    with zarr.config.set(_ALL_CHUNKS):
+        for (name, *_), array in zip(_VARIABLES, values, strict=True):
+            group[name][block.region] = array
+        group[_COMPUTED][block.region] = True
 
 
-def _completed(task: Callable[[_Block], None], blocks: Sequence[_Block], workers: Workers) -> Iterator[None]:
-    """Do the task for all blocks, here or by Dask; yield after each."""
+@contextmanager
+def _hands(workers: Workers) -> Iterator[Callable[..., Iterator[None]]]:
+    """What does a task for all blocks, here or by Dask, and yields after each."""
     if workers is None:
-        yield from map(task, blocks)
+        yield map
         return
-    from distributed import Client, LocalCluster, as_completed
+    from distributed import Client, KilledWorker, LocalCluster, as_completed
 
     with ExitStack() as stack:
         address: Any = workers
         if not isinstance(workers, str):
-            count = int(in_range("workers", scalar("workers", workers, ""), 1.0))
-            # One thread each: the kernels hold the interpreter's lock.
+            count = whole_number("workers", workers, 1)
+            # One thread each: what was asked for is a number of processes.
             cluster = LocalCluster(n_workers=count, threads_per_worker=1, dashboard_address=None)
             address = stack.enter_context(cluster)
-        client = stack.enter_context(Client(address))
-        for future in as_completed(client.map(task, blocks, pure=False)):
-            yield future.result()
+        try:
+            client = stack.enter_context(Client(address))
+        except (OSError, ValueError) as error:
+            raise ValueError(f"workers: {workers!r} cannot be reached: {error}") from error
+
+        def completed(task: Callable[[_Block], None], blocks: Sequence[_Block]) -> Iterator[None]:
+            try:
+                for future in as_completed(client.map(task, blocks, pure=False)):
+                    yield future.result()
+            except KilledWorker as error:
+                raise ValueError(f"workers: {workers!r} ended before the work was done: {error}") from error
+
+        yield completed
 
 
 def _tracked(steps: Iterator[Step], total: int, progress: bool) -> Iterator[Step]:

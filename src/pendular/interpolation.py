@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._check import angle, broadcast, in_range, one_of, quantity
-from .dataset import PAIR_DIMS, curvatures, solids_of
+from ._check import angle, broadcast, in_range, one_of, quantity, whole_number
+from .dataset import PAIR_DIMS, check_dataset, curvatures, damage_told, solids_of
 from .dataset_grid import Sheet, interpolate_range, longest_rises
 from .exact.batch import RUPTURE, STABLE, bridge_range
 from .exact.equations import SUCTION, VOLUME
@@ -77,6 +77,7 @@ def interpolate(
     >>> interpolate(data, "suction", 100.0, [0.0, 0.01, 0.02], 1.0, 0.0).round(4)
     array([0.948 , 0.4177, 0.    ])
     """
+    check_dataset(dataset)
     values, gaps, ratios, angles = broadcast(
         value_star=quantity("value_star", value_star, ""),
         separation_star=quantity("separation_star", separation_star, ""),
@@ -119,6 +120,7 @@ def interpolate_rupture(
     >>> print(f"{interpolate_rupture(data, 'suction', 100.0, 1.0, 0.0):.6f}")
     0.014589
     """
+    check_dataset(dataset)
     values, ratios, angles = broadcast(
         value_star=quantity("value_star", value_star, ""),
         size_ratio=quantity("size_ratio", size_ratio, ""),
@@ -159,14 +161,17 @@ def interpolation_error(
     """
     import xarray as xr
 
-    generator = np.random.default_rng(seed)
+    check_dataset(dataset)
+    count = whole_number("samples", samples, 1)
+    one_of("order", order, ("linear", "cubic"))
+    generator = np.random.default_rng(whole_number("seed", seed, 0))
     controls: tuple[Control, ...] = ("suction", "volume")
     coords = {"control": list(controls), **{name: dataset[name] for name in PAIR_DIMS}}
     names = ("largest_force_error", "median_force_error", "largest_rupture_error", "share_inside")
     errors = np.empty((*(len(values) for values in coords.values()), len(names)))
     for i, j, k in np.ndindex(errors.shape[:3]):
         pair = float(dataset["size_ratio"][j]), float(dataset["contact_angle"][k])
-        errors[i, j, k] = _errors(dataset, controls[i], pair, samples, order, generator)
+        errors[i, j, k] = _errors(dataset, controls[i], pair, count, order, generator)
     attributes = {"samples": samples, "order": order, "seed": seed, "separations": "contact to 0.99 of rupture"}
     variables = {name: (list(coords), errors[..., i]) for i, name in enumerate(names)}
     return xr.Dataset(variables, coords, attributes)
@@ -221,7 +226,8 @@ def _sheet(dataset: "xr.Dataset", ratio: int, angle: int) -> Sheet:
     """Tables of one pair along both families of lines."""
     pair = dataset.isel(size_ratio=ratio, contact_angle=angle)
     names = ("suction_star", "half_separation_star", "volume_star", "force_star")
-    suctions, halves, volumes, forces = (np.ascontiguousarray(pair[name].to_numpy()) for name in names)
+    with damage_told("dataset", "it"):
+        suctions, halves, volumes, forces = (np.ascontiguousarray(pair[name].to_numpy()) for name in names)
     volumes_across = np.ascontiguousarray(volumes.T)
     with np.errstate(invalid="ignore", divide="ignore"):
         log_volumes_across = np.log(volumes_across)

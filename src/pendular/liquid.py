@@ -3,7 +3,6 @@
 import difflib
 import math
 import re
-import warnings
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, Self
@@ -12,7 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.constants import R as GAS_CONSTANT
 
-from ._check import in_range, quantity, scalar
+from ._check import in_range, instance, quantity, scalar
+from ._warn import warn
 
 __all__ = [
     "KelvinWarning",
@@ -336,7 +336,7 @@ def humidity_from_suction(
     return np.exp(-p / _kelvin_pressure(liquid, temperature))
 
 
-def warn_kelvin(curvature_radius: ArrayLike, relative_force_change: ArrayLike, stacklevel: int = 2) -> None:
+def warn_kelvin(curvature_radius: ArrayLike, relative_force_change: ArrayLike) -> None:
     """Issue at most one `KelvinWarning` for bridges whose force was fixed by a humidity.
 
     Parameters
@@ -345,8 +345,6 @@ def warn_kelvin(curvature_radius: ArrayLike, relative_force_change: ArrayLike, s
         1/H = γ/Δp, [m]; NaN, where there is no bridge, is passed over.
     relative_force_change : array_like
         dF/F by a change of 0.1 % RH, [-], either sign; NaN is passed over.
-    stacklevel : int
-        As in `warnings.warn`, counted from the caller: 1 points at the line that calls this function.
 
     Notes
     -----
@@ -377,7 +375,7 @@ def warn_kelvin(curvature_radius: ArrayLike, relative_force_change: ArrayLike, s
             f"{100 * loose.max():.3g} %: control the suction or the volume instead"
         )
     if reasons:
-        warnings.warn("; ".join(reasons), KelvinWarning, stacklevel=stacklevel + 1)
+        warn("; ".join(reasons), KelvinWarning)
 
 
 def _positive(name: str, value: object, unit: str) -> float:
@@ -392,6 +390,7 @@ def _in_kelvin(name: str, kelvin: float, low: float, high: float) -> float:
 
 def _kelvin_pressure(liquid: Liquid, temperature: float | None) -> float:
     """R T / V_m, the suction at which the humidity is 1/e, [Pa]."""
+    instance("liquid", liquid, Liquid)
     kelvin, volume = _temperature_of(liquid, temperature), _molar_volume(liquid)
     if volume is None or kelvin is None:
         missing = []

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ._files import whole
 from .bridges import Bridge, Pair
 from .colours import ACCENT, FAINT, GRAIN, GRAIN_EDGE, HAIR, INK, LIQUID, LIQUID_EDGE
 from .scene import ASPECT, Scene, Window, far_window, mirrored, near_window, outline_of, round_length, scene_of
@@ -126,9 +127,10 @@ def save(drawing: Figure, path: Path) -> None:
     """
     import matplotlib
 
-    undated = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
-    with matplotlib.rc_context({"svg.hashsalt": "pendular"}):
-        drawing.savefig(path, dpi=200, metadata=undated.get(path.suffix.lower()))
+    form = path.suffix.lower().removeprefix(".")
+    undated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
+    with matplotlib.rc_context({"svg.hashsalt": "pendular"}), whole(path) as draft:
+        drawing.savefig(draft, format=form, dpi=200, metadata=undated.get(form))
 
 
 def draw_pair(axes: Axes, pair: Pair, bridge: Bridge, separation: float) -> None:

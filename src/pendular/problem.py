@@ -3,7 +3,6 @@
 Lengths are divided by the smaller radius and γ is 1: each row of a problem is (D, H or V, k1, θ1, k2, θ2).
 """
 
-import warnings
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -11,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._check import broadcast, in_range, plain, quantity
 from ._jit import in_chunks
+from ._warn import warn
 from .exact import batch
 from .exact.batch import FAILED, FOUND, NO_BRIDGE
 from .exact.equations import SUCTION, VOLUME
@@ -144,7 +144,7 @@ def restore(problem: Problem, states: Floats, statuses: NDArray[np.int8], extra:
     has_failed = np.equal(statuses, FAILED).reshape(shape)
     failed = int(np.count_nonzero(has_failed))
     if failed:
-        warnings.warn(f"the solver failed for {failed} of {exists.size} bridges", ConvergenceWarning, stacklevel=4)
+        warn(f"the solver failed for {failed} of {exists.size} bridges", ConvergenceWarning)
 
     def pair_of(first: Floats, second: Floats) -> Floats:
         return np.stack([first, second], axis=-1)

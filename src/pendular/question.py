@@ -145,10 +145,8 @@ def read_question(
 
     form = read_form(as_json, as_csv, plot)
     radii = _radii(radius, diameter, radius2, diameter2)
-    degrees = (
-        read_contact_angle("contact-angle", contact_angle),
-        read_contact_angle("contact-angle2", contact_angle2 or contact_angle),
-    )
+    second = contact_angle if contact_angle2 is None else contact_angle2
+    degrees = read_contact_angle("contact-angle", contact_angle), read_contact_angle("contact-angle2", second)
     control = _control(suction, volume, humidity)
     wetting = _liquid(liquid, temperature, surface_tension, molar_volume, is_humid=humidity is not None)
     return Question(
@@ -269,7 +267,7 @@ def _liquid(
     from .liquid import Liquid
 
     tension = None if surface_tension is None else read("surface-tension", surface_tension, "N/m", "72.8mN/m")
-    kelvin = read("temperature", temperature or _ROOM_TEMPERATURE, "K", _ROOM_TEMPERATURE)
+    kelvin = read("temperature", _ROOM_TEMPERATURE if temperature is None else temperature, "K", _ROOM_TEMPERATURE)
     if molar_volume is not None and not is_humid:
         raise ValueError("molar-volume: has no effect without humidity")
     volume = None if molar_volume is None else read("molar-volume", molar_volume, "m^3/mol", "18cm^3/mol")

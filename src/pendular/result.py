@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ._check import in_range, quantity
+from ._check import whole_number
 from .exact.algebra import Four
 from .exact.meridian import lay_meridian
 
@@ -79,7 +79,7 @@ class Bridge:
         >>> bool(np.isclose(b.profile().y.min(), b.neck_radius))
         True
         """
-        count = int(in_range("points", quantity("points", points, ""), 3.0))
+        count = whole_number("points", points, 3)
         shape = np.shape(self.separation)
         meridian = self._meridian.reshape(-1, 3)
         curvature = np.ravel(np.asarray(self.suction) / self._surface_tension)

@@ -1,10 +1,11 @@
 """What all commands share: how they are made, how they end, and how they print."""
 
 import inspect
+import os
 import sys
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -12,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from .. import __version__
+from .._files import in_one_line
 from ..question import Question, in_terms_of_options, read_question
 
 if TYPE_CHECKING:
@@ -30,7 +32,7 @@ __all__ = [
     "save_picture",
 ]
 
-_BAD_INPUT, _INTERRUPTED = 2, 130
+_NOT_WRITTEN, _BAD_INPUT, _INTERRUPTED = 1, 2, 130
 _FORMS = ("as_json", "as_csv", "plot")
 
 # The decorated help would first read a Markdown parser and a highlighter, which takes as long as all the rest.
@@ -43,7 +45,7 @@ app = typer.Typer(
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command and leave with its exit status: 2 and one line on stderr for bad input.
+    """Run the command and leave with its exit status: 2 and one line on stderr for bad input, 1 for a full disk.
 
     Parameters
     ----------
@@ -52,11 +54,17 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """
     try:
         status = app(arguments, prog_name="pendular", standalone_mode=False)
+        sys.stdout.flush()
     except typer.Abort:
         sys.exit(_INTERRUPTED)
     except ValueError as error:
         _complain(in_terms_of_options(str(error)))
         sys.exit(_BAD_INPUT)
+    except OSError as error:
+        _drop_output()
+        if not isinstance(error, BrokenPipeError):  # a reader that has enough, like head, is no error to speak of
+            _complain(f"{error.filename or 'output'}: {error.strerror or error}")
+        sys.exit(_NOT_WRITTEN)
     except Exception as error:
         if not hasattr(error, "format_message"):  # what the option parser raises has it, whichever package holds it
             raise
@@ -72,6 +80,12 @@ def _what_is_missing(error: Any) -> str:
         return ""
     name = max(option.opts, key=len).lstrip("-")
     return f"{name}: missing; {option.help[:1].lower()}{option.help[1:].removesuffix('.')}"
+
+
+def _drop_output() -> None:
+    """Let the interpreter find no output to write as it ends, which would fail once more."""
+    with suppress(OSError, ValueError):  # no file stands behind it
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _complain(message: str) -> None:
@@ -149,10 +163,8 @@ def save_picture(drawing: "Figure", path: Path) -> None:
     """Write a picture, or say in one line why it cannot be written."""
     from ..plot import save
 
-    try:
+    with in_one_line("plot", path):
         save(drawing, path)
-    except OSError as error:
-        raise ValueError(f"plot: '{path}' cannot be written: {error.strerror}") from error
 
 
 def print_answer(question: Question, answer: "RenderableType") -> None:

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 
 import typer
 
+from .._files import in_one_line, whole
 from ..question import read_contact_angle
 from ._app import compiling_shown
 from .export import export
@@ -43,9 +44,10 @@ def c(
     prefix: Annotated[str, typer.Option(help="Begins all names in the header.", metavar="NAME")] = "pendular_",
 ) -> None:
     """Force, stiffness, rupture distance and volume (or suction) of bridges as one C header, for any particle code."""
+    second = contact_angle if contact_angle2 is None else contact_angle2
     angles = tuple(
         math.radians(read_contact_angle(name, text))
-        for name, text in (("contact-angle", contact_angle), ("contact-angle2", contact_angle2 or contact_angle))
+        for name, text in (("contact-angle", contact_angle), ("contact-angle2", second))
     )
     if reduced_volume is not None and reduced_suction is not None:
         raise ValueError("reduced-volume: given together with reduced-suction; one of the two is held")
@@ -71,8 +73,6 @@ def _write(
         warnings.simplefilter("ignore", ToleranceWarning)  # the lines below say what was reached
         table = tabulate(angles, control, reduced=reduced, radius_ratio=ratios, tolerance=tolerance)
     text = c_header(table, prefix=prefix)
-    try:
-        out.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise ValueError(f"out: '{out}' cannot be written: {error.strerror}") from error
+    with in_one_line("out", out), whole(out) as draft:
+        draft.write_text(text, encoding="utf-8")
     typer.echo("\n".join([f"{out}: {len(text) / 1e6:.2f} MB", *bound_lines(table)]))

@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from .._files import in_one_line, whole
 from ..question import Question
 from ..units import read, show
 from ._app import question_command
@@ -35,10 +36,8 @@ def pair_table(
     depth = None if overlap is None else read("overlap", overlap, "m", "5um")
     table = tables.pair_table(question.pair, **question.held, liquid=question.liquid, overlap=depth, points=points)
     text = tables.pair_table_text(table, keyword, question.title, question.subtitle)
-    try:
-        out.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise ValueError(f"out: '{out}' cannot be written: {error.strerror}") from error
+    with in_one_line("out", out), whole(out) as draft:
+        draft.write_text(text, encoding="utf-8")
     first, last = (show(float(table.distance[i]), "m") for i in (0, -1))
     typer.echo(f"{out}: {points} rows from {first} to {last}, centre to centre; the bridge breaks at the last one")
     typer.echo(f"error of the force between the rows: {100.0 * table.error:.2g} % of the force at contact")

@@ -5,7 +5,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._check import angle, in_range, one_of, quantity
+from .._check import angle, in_range, one_of, quantity, scalar
 from ..laws import Law, laws
 from .sample import exact_sample, law_errors
 
@@ -81,9 +81,7 @@ def error_map(
     measured = _quantity(record)
     if measured != "force" and fraction is not None:
         raise ValueError(f"fraction: {law} gives no force, its error is that of the {measured.replace('_', ' ')}")
-    part = float(
-        in_range("fraction", quantity("fraction", 0.5 if fraction is None else fraction, ""), 0.0, 1.0, brackets="[)")
-    )
+    part = in_range("fraction", scalar("fraction", 0.5 if fraction is None else fraction, ""), 0.0, 1.0, brackets="[)")
     by_default = _SUCTIONS if record.control == "suction" else _VOLUMES
     name = f"{record.control}_star"
     controls = np.atleast_1d(quantity(name, by_default if control_star is None else control_star, ""))

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._check import in_range, quantity
+from .._check import whole_number
 from ..bridges import bridge, rupture
 from ..laws import Law, force_star, laws, rupture_star, rupture_work_star
 from ..liquid import Liquid
@@ -119,7 +119,7 @@ def compare(
     >>> print(f"{100 * own['zhao2020'].largest_error:.2f} %")
     3.87 %
     """
-    count = int(in_range("points", quantity("points", points, ""), float(_FEWEST)))
+    count = whole_number("points", points, _FEWEST)
     control = control_of(suction, volume, humidity, liquid)
     exact = _exact(pair, control, liquid, count)
     reduced = _reduce(exact, liquid)

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._check import angle, in_range, quantity
+from .._check import angle, in_range, quantity, scalar
 from ..laws import Law, laws
 from .domain import why_silent
 from .sample import NO_BRIDGE, ControlName, Sample, exact_sample, law_errors
@@ -103,7 +103,7 @@ def recommend(
     controls = _span(f"reduced_{control}", given[control], 0.0, "()")
     angles = _span("contact_angle", angle("contact_angle", contact_angle), 0.0, "[)")
     smaller = 1.0 / _span("size_ratio", size_ratio, 1.0, "[]", allow_inf=True)
-    last = float(in_range("up_to", quantity("up_to", up_to, ""), 0.0, 1.0, brackets="[)"))
+    last = in_range("up_to", scalar("up_to", up_to, ""), 0.0, 1.0, brackets="[)")
     with np.errstate(divide="ignore"):
         ratios = 1.0 / _steps(smaller, _RATIOS)
     empty = Recommendation(

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import __version__
-from .._check import in_range, quantity
+from .._check import in_range, instance, quantity, whole_number
 from ..bridges import Bridge, Pair, bridge, rupture
 from ..liquid import Liquid
 
@@ -72,13 +72,14 @@ def pair_table(
     >>> f"{table.distance[-1] - table.contact_distance:.3e} m, error {table.error:.1e}"
     '3.314e-06 m, error 4.2e-03'
     """
+    instance("pair", pair, Pair)
     radii = np.broadcast_to(np.asarray(pair.radius, float), 2)
     if np.isinf(radii).any():
         raise ValueError("radius: a plane has no centre, and a table of pairs needs the distance of two centres")
     smallest = float(radii.min())
     depth = 0.1 * smallest if overlap is None else float(quantity("overlap", overlap, "m"))
     in_range("overlap", depth, 0.0, 0.5 * smallest, brackets="[)", unit="m")
-    count = int(in_range("points", quantity("points", points, ""), 10.0))
+    count = whole_number("points", points, 10)
     at = partial(bridge, pair, suction=suction, volume=volume, humidity=humidity, liquid=liquid)
     end = rupture(pair, suction=suction, volume=volume, humidity=humidity, liquid=liquid)
     if not end.exists:

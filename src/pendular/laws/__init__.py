@@ -17,7 +17,7 @@ laws: dict[str, Law] = {law.name: law for law in LAWS}
 keys, values, items = laws.keys, laws.values, laws.items
 
 
-class _Registry(ModuleType):
+class Registry(ModuleType):
     """Importing any law binds `pendular.laws` to this package, so the package has to answer as the registry."""
 
     def __getitem__(self, name: str) -> Law:
@@ -32,4 +32,4 @@ class _Registry(ModuleType):
         return len(laws)
 
 
-sys.modules[__name__].__class__ = _Registry
+sys.modules[__name__].__class__ = Registry

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .._check import broadcast, numbers
 from .._jit import element, in_chunks, kernel
 from ._registry import LAWS, force_star_of, rupture_star_of, rupture_work_star_of
 
@@ -91,8 +92,16 @@ def force_star(
     >>> force_star("zhao2020", [0.0, 0.01, 0.02], 100.0, 0.0, 0.0, 1.0, 1.0).round(4)
     array([0.9462, 0.4157, 0.    ])
     """
-    operands = (separation_star, control_star, contact_angle1, contact_angle2, kappa1, kappa2)
-    return _evaluate(_force_range, _code(law, "force"), operands)
+    return _evaluate(
+        _force_range,
+        _code(law, "force"),
+        separation_star=separation_star,
+        control_star=control_star,
+        contact_angle1=contact_angle1,
+        contact_angle2=contact_angle2,
+        kappa1=kappa1,
+        kappa2=kappa2,
+    )
 
 
 def rupture_star(
@@ -137,7 +146,13 @@ def rupture_star(
     array([0.014592, 0.000188])
     """
     return _evaluate(
-        _rupture_range, _code(law, "rupture"), (control_star, contact_angle1, contact_angle2, kappa1, kappa2)
+        _rupture_range,
+        _code(law, "rupture"),
+        control_star=control_star,
+        contact_angle1=contact_angle1,
+        contact_angle2=contact_angle2,
+        kappa1=kappa1,
+        kappa2=kappa2,
     )
 
 
@@ -184,7 +199,13 @@ def rupture_work_star(
     array([0.01  , 0.0001])
     """
     return _evaluate(
-        _rupture_work_range, _code(law, "rupture_work"), (control_star, contact_angle1, contact_angle2, kappa1, kappa2)
+        _rupture_work_range,
+        _code(law, "rupture_work"),
+        control_star=control_star,
+        contact_angle1=contact_angle1,
+        contact_angle2=contact_angle2,
+        kappa1=kappa1,
+        kappa2=kappa2,
     )
 
 
@@ -195,11 +216,11 @@ def _code(law: str, quantity: str) -> int:
     return _CODES[law]
 
 
-def _evaluate(loop: Callable[..., None], code: int, operands: tuple[ArrayLike, ...]) -> Array:
-    arrays = [np.asarray(operand, dtype=np.float64) for operand in operands]
-    shape = np.broadcast_shapes(*(array.shape for array in arrays))
+def _evaluate(loop: Callable[..., None], code: int, **operands: ArrayLike) -> Array:
+    arrays = {name: numbers(name, operand, "") for name, operand in operands.items()}
+    shape = broadcast(**arrays)[0].shape
     out = np.empty(shape)
     # One array type for every call, hence one compilation; an operand of one element is not repeated.
-    flat = tuple((array if array.size == 1 else np.broadcast_to(array, shape)).flatten() for array in arrays)
+    flat = tuple((array if array.size == 1 else np.broadcast_to(array, shape)).flatten() for array in arrays.values())
     in_chunks(loop, out.size, _CHUNK, code, flat, out.reshape(-1))
     return out[()]

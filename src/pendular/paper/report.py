@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import matplotlib as mpl
 
+from .._files import in_one_line, whole
 from .claims import Claim, measure
 from .figures import FIGURES, Drawing
 
@@ -55,7 +56,8 @@ def write_report(
     ['index.html', 'claims.json', 'figure01.svg']
     """
     home = Path(folder)
-    home.mkdir(parents=True, exist_ok=True)
+    with in_one_line("out", home, "written to"):
+        home.mkdir(parents=True, exist_ok=True)
     tell = progress or (lambda done, share: None)
     steps = len(FIGURES) + 1
     claims = measure(density)
@@ -70,7 +72,8 @@ def write_report(
         **{f"{drawing.name}.svg": picture for drawing, picture in pictures.items()},
     }
     for name, content in files.items():
-        (home / name).write_bytes(content)
+        with in_one_line("out", home / name), whole(home / name) as draft:
+            draft.write_bytes(content)
     return tuple(home / name for name in files)
 
 

@@ -13,6 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .._files import in_one_line, whole
+
 __all__ = ["load", "save"]
 
 _FORMAT = 2
@@ -44,14 +46,14 @@ def save(path: Path, description: Mapping[str, Any], arrays: Mapping[str, NDArra
     text = json.dumps({"format": _FORMAT, "arrays": kinds, **description}, sort_keys=True)
     stamp = {"text": text, "sha256": _checksum(text, arrays)}
     packed = {name: _shuffled(array) for name, array in arrays.items()}
-    with open(path, "wb") as file:
+    with in_one_line("path", path), whole(path) as draft, draft.open("wb") as file:
         np.savez_compressed(file, **{_DESCRIPTION: np.array(json.dumps(stamp))}, **packed)  # type: ignore[arg-type]
 
 
 def load(path: Path) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
     """Read a file back, and refuse it unless it is whole."""
     try:
-        with np.load(io.BytesIO(Path(path).read_bytes()), allow_pickle=False) as packed:
+        with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as packed:
             stamp = json.loads(str(packed[_DESCRIPTION]))
             description = json.loads(stamp["text"])
             arrays = {

@@ -1,18 +1,17 @@
 """A table as its users see it: built, asked in SI units, saved and loaded."""
 
-import warnings
 from dataclasses import dataclass
 from importlib.metadata import version
 from math import inf
 from os import PathLike
-from pathlib import Path
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._check import angle, in_range, numbers, one_of, quantity, result_array, scalar
+from .._check import angle, as_path, in_range, numbers, one_of, quantity, result_array, scalar
 from .._jit import in_chunks
+from .._warn import warn
 from .arrays import ENERGY, FORCE, LIQUID, RUPTURE, STIFFNESS, block_range, scalar_range
 from .build import build_grid, sample_range
 from .curve import ForceCurve, curve_of
@@ -228,7 +227,7 @@ class Table:
             "cut": [self.grid.shift, self.grid.first, self.grid.cells],
             "range": [self.grid.low, self.grid.high, self.grid.least_ratio, self.grid.largest_ratio],
         }
-        save(Path(path), description, {name: getattr(self.grid, name) for name in _ARRAYS})
+        save(as_path("path", path), description, {name: getattr(self.grid, name) for name in _ARRAYS})
 
     def _ask(self, asked: int, out: Floats | None, *arguments: ArrayLike) -> Floats:
         named = zip(operands_of(self.control).items(), arguments, strict=True)
@@ -336,11 +335,7 @@ def tabulate(
     reached_and_asked = (("force", bound.force, wanted), ("rupture distance", bound.rupture, 0.1 * wanted))
     for name, error, asked in reached_and_asked:
         if not error <= asked:
-            warnings.warn(
-                f"tolerance: the error of the {name} is {error:.1e}, not below {asked:.1e}",
-                ToleranceWarning,
-                stacklevel=2,
-            )
+            warn(f"tolerance: the error of the {name} is {error:.1e}, not below {asked:.1e}", ToleranceWarning)
     return Table(pair, control, (low, high), (low_ratio, high_ratio), wanted, bound, version("pendular"), grid)
 
 
@@ -386,7 +381,7 @@ def load_table(path: str | PathLike[str]) -> Table:
     ValueError
         If the file cannot be read, is damaged, or of another format.
     """
-    found, arrays = load(Path(path))
+    found, arrays = load(as_path("path", path))
     low_ratio, high_ratio = (float(ratio) for ratio in found["radius_ratio"])
     theta1, theta2 = found["contact_angle"]
     low, high = found["reduced"]

@@ -1,12 +1,16 @@
 """The way into a running LAMMPS: what is asked is checked, and its fix is made."""
 
+import io
+import zipfile
+import zlib
 from os import PathLike
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..._check import in_range, quantity, scalar
+from ..._check import as_path, in_range, instance, quantity, scalar
+from ..._files import in_one_line
 from ...contacts import BridgeState
 from ...table import Table
 from .checks import check_run, control_of, reach_of
@@ -127,6 +131,7 @@ def couple(
     >>> coupling.bridges.pairs.tolist(), f"{coupling.energy:.3e} J"
     ([[1, 2]], '-9.683e-11 J')
     """
+    instance("table", table, Table)
     tension = scalar("surface_tension", surface_tension, "N/m")
     in_range("surface_tension", tension, 0.0, brackets="(]", unit="N/m")
     formation = scalar("formation_distance", formation_distance, "m")
@@ -167,8 +172,14 @@ def _read(state: str | PathLike[str] | BridgeState | None) -> tuple[BridgeState,
     if isinstance(state, BridgeState):
         pairs, control = np.asarray(state.pairs), np.asarray(state.control, float)
     else:
-        with np.load(state) as found:
-            pairs, control, stored = found["pairs"], found["control"], found["stores"]
+        place = as_path("state", state)
+        with in_one_line("state", place, "read"):
+            content = place.read_bytes()
+        try:
+            with np.load(io.BytesIO(content)) as found:
+                pairs, control, stored = found["pairs"], found["control"], found["stores"]
+        except (KeyError, ValueError, EOFError, TypeError, zipfile.BadZipFile, zlib.error) as error:
+            raise ValueError(f"state: '{place}' is not what a coupling saved, or damaged") from error
     if pairs.shape != (control.size, 2) or pairs.dtype.kind not in "iu":
         raise ValueError(f"state: {control.size} controls and pairs of shape {pairs.shape} are no bridges")
     return BridgeState(pairs.astype(np.int64), control), stored

@@ -6,6 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..._check import as_path
+from ..._files import in_one_line, whole
 from ...contacts import BridgeState
 from ...table import Table
 from . import forces
@@ -112,7 +114,9 @@ class Coupling:
         """
         pairs, control = self.bridges
         if self._world is None or self._world.rank == 0:
-            np.savez(path, pairs=pairs, control=control, stores=self._supply.stores)
+            place = as_path("path", path)
+            with in_one_line("path", place), whole(place) as draft, draft.open("wb") as file:
+                np.savez(file, pairs=pairs, control=control, stores=self._supply.stores)
 
     def step(self, _caller: Any, step: int, _local: int, _tags: Any, _positions: Any, force: Floats) -> None:
         """What LAMMPS calls for the forces of a step; no exception may leave it."""

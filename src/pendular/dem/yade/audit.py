@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..._files import in_one_line
 from .errors import Errors, RuptureErrors, measure, measure_rupture, measure_to, row_errors
 from .files import RATIOS, Table, parse_table, table_name
 from .tables import REACH
@@ -131,12 +132,16 @@ def folder_texts(folder: Path, suffix: str = "") -> dict[str, str | None]:
     Raises
     ------
     ValueError
-        If none of them is there.
+        If none of them is there, or one cannot be read.
     """
     paths = [folder / table_name(ratio, suffix) for ratio in RATIOS]
     if not any(path.is_file() for path in paths):
         raise ValueError(f"check: no file like '{paths[0].name}' in '{folder}'")
-    return {path.name: path.read_text("ascii", "replace") if path.is_file() else None for path in paths}
+    texts: dict[str, str | None] = {}
+    for path in paths:
+        with in_one_line("check", path, "read"):
+            texts[path.name] = path.read_text("ascii", "replace") if path.is_file() else None
+    return texts
 
 
 def audit(texts: Mapping[str, str | None], contact_angle: float | None = None) -> Audit:

@@ -4,6 +4,7 @@ import math
 from pathlib import Path
 from typing import NamedTuple
 
+from ..._files import in_one_line, whole
 from .audit import Audit, audit_between, audit_table
 from .files import RATIOS, table_name, write_points, write_table
 from .points import make_points
@@ -63,23 +64,23 @@ def export(
     ...     len(list(Path(folder).iterdir())), done.audit.is_within(0.02)
     (12, True)
     """
+    with in_one_line("out", folder, "written to"):
+        folder.mkdir(parents=True, exist_ok=True)
     tables = [
         make_table(ratio, contact_angle, tolerance=tolerance, reduced_suction=reduced_suction) for ratio in RATIOS
     ]
     points = make_points(contact_angle, reduced_suction=reduced_suction)
     points_path, note_path = (folder / f"{stem}{suffix}.txt" for stem in ("capillaryfile", "bridges"))
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
+    with in_one_line("out", folder, "written to"):
         sizes = [write_table(folder / table_name(table.ratio, suffix), table) for table in tables]
         points_size = write_points(points_path, points)
-    except OSError as error:
-        raise ValueError(f"out: '{folder}' cannot be written to: {error.strerror}") from error
     files = [
         audit_table(table_name(table.ratio, suffix), size, table, contact_angle)
         for table, size in zip(tables, sizes, strict=True)
     ]
     audit = Audit(contact_angle, tuple(files), audit_between(tables, contact_angle), tuple(tables))
-    note_path.write_text(_note(contact_angle, suffix, tolerance, reduced_suction), encoding="utf-8")
+    with in_one_line("out", folder, "written to"), whole(note_path) as draft:
+        draft.write_text(_note(contact_angle, suffix, tolerance, reduced_suction), encoding="utf-8")
     return Export(audit, len(points), points_path, points_size, note_path)
 
 

@@ -12,6 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..._files import in_one_line, whole
+
 __all__ = [
     "COLUMNS",
     "POINT_COLUMNS",
@@ -101,7 +103,8 @@ def write_table(path: Path, table: Table) -> int:
     parts = [f"{table.ratio:.10g}\n{len(table.blocks)}\n"]
     for block in table.blocks:
         parts += [f"{len(block)}{blank}\n", _lines(block)]
-    return path.write_text("".join(parts), encoding="ascii")
+    with whole(path) as draft:
+        return draft.write_text("".join(parts), encoding="ascii")
 
 
 def _lines(rows: Floats) -> str:
@@ -124,11 +127,11 @@ def read_table(path: Path) -> Table:
     Raises
     ------
     ValueError
-        Naming the file and its first fault.
-    OSError
-        If the file cannot be read.
+        Naming the file and its first fault, or why it cannot be read.
     """
-    reading = parse_table(path.read_text(encoding="ascii", errors="replace"))
+    with in_one_line("path", path, "read"):
+        text = path.read_text(encoding="ascii", errors="replace")
+    reading = parse_table(text)
     if reading.table is None or reading.faults:
         raise ValueError(f"{path.name}: {reading.faults[0]}")
     return reading.table
@@ -244,7 +247,8 @@ def write_points(path: Path, points: Floats) -> int:
     int
         Bytes written.
     """
-    return path.write_text(_lines(points)[:-1], encoding="ascii")
+    with whole(path) as draft:
+        return draft.write_text(_lines(points)[:-1], encoding="ascii")
 
 
 def read_points(path: Path) -> Floats:
@@ -262,10 +266,15 @@ def read_points(path: Path) -> Floats:
     Raises
     ------
     ValueError
-        If it is not made of rows of ten numbers.
+        If it is not made of rows of ten numbers, or cannot be read.
     """
-    rows = [line.split() for line in path.read_text(encoding="ascii", errors="replace").splitlines() if line.strip()]
+    with in_one_line("path", path, "read"):
+        text = path.read_text(encoding="ascii", errors="replace")
+    rows = [line.split() for line in text.splitlines() if line.strip()]
     wrong = [i for i, row in enumerate(rows, 1) if len(row) != len(POINT_COLUMNS)]
     if wrong or not rows:
         raise ValueError(f"{path.name}: row {wrong[0] if wrong else 1} is not made of {len(POINT_COLUMNS)} numbers")
-    return np.array(rows, dtype=np.float64)
+    try:
+        return np.array(rows, dtype=np.float64)
+    except ValueError as error:
+        raise ValueError(f"{path.name}: {error}") from error

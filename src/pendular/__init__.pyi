@@ -1,0 +1,44 @@
+"""The public names, for the package, which loads each on first use, and for type checkers."""
+
+import typing
+
+from ._version import __version__ as __version__
+from .bridges import bridge as bridge
+from .bridges import curve as curve
+from .bridges import rupture as rupture
+from .by_law import RangeWarning as RangeWarning
+from .comparison import Comparison as Comparison
+from .comparison import ErrorMap as ErrorMap
+from .comparison import Recommendation as Recommendation
+from .comparison import compare as compare
+from .comparison import error_map as error_map
+from .comparison import recommend as recommend
+from .contacts import BridgeState as BridgeState
+from .contacts import ContactForces as ContactForces
+from .contacts import contact_energy as contact_energy
+from .contacts import contact_forces as contact_forces
+from .dataset import load_dataset as load_dataset
+from .dataset import make_dataset as make_dataset
+from .dataset import save_dataset as save_dataset
+from .interpolation import interpolate as interpolate
+from .interpolation import interpolate_rupture as interpolate_rupture
+from .interpolation import interpolation_error as interpolation_error
+from .liquid import KelvinWarning as KelvinWarning
+from .liquid import Liquid as Liquid
+from .liquid import humidity_from_suction as humidity_from_suction
+from .liquid import suction_from_humidity as suction_from_humidity
+from .pair import Pair as Pair
+from .problem import ConvergenceWarning as ConvergenceWarning
+from .result import Bridge as Bridge
+from .result import Profile as Profile
+from .table import Table as Table
+from .table import ToleranceWarning as ToleranceWarning
+from .table import load_table as load_table
+from .table import tabulate as tabulate
+
+if typing.TYPE_CHECKING:
+    import pendular.laws as _laws
+
+    laws: _laws.Registry  # to a checker no module is a mapping
+else:
+    from . import laws as laws
