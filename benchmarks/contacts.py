@@ -19,7 +19,8 @@ from scipy.interpolate import RegularGridInterpolator
 
 import pendular as pl
 from pendular._jit import in_chunks
-from pendular.exact import arrays as exact
+from pendular.exact import batch as exact
+from pendular.exact.equations import SUCTION
 from pendular.laws import willett2000, zhao2020
 
 PAGE = Path(__file__).parent.parent / "docs" / "speed.md"
@@ -217,10 +218,7 @@ def measure() -> str:
             np.full(10 * few, CONTACT_ANGLE),
         ]
     )
-    states, statuses = np.empty((10 * few, 19)), np.empty(10 * few, np.int8)
-    cost = median_ns(
-        lambda: in_chunks(exact.suction_range, 10 * few, 4096, exact.STABLE, questions, states, statuses), 10 * few
-    )
+    cost = median_ns(lambda: exact.answer(exact.STABLE, SUCTION, questions), 10 * few)
     add("exact solver, all quantities", cost, "0")
     cost = median_ns(lambda: table.force(separation, suction, radius1, radius2, GAMMA, out=out), COUNT)
     add("**table**", cost, error(out))

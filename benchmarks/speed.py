@@ -18,8 +18,8 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 import pendular as pl
-from pendular.exact import arrays
-from pendular.exact.equilibrium import State
+from pendular.exact import batch
+from pendular.exact.equations import SUCTION
 
 Floats = NDArray[np.float64]
 
@@ -117,11 +117,7 @@ def time_kernel(sample: Sample) -> float:
     """Seconds a bridge in compiled code, numbers in and numbers out."""
     one = np.ones_like(sample.angle)
     questions = np.column_stack([sample.separation, sample.suction, one, sample.angle, one, sample.angle])
-    states, statuses = np.empty((len(one), len(State._fields))), np.empty(len(one), np.int8)
-    total = seconds(
-        lambda: arrays.suction_range(arrays.STABLE, questions, states, statuses, 0, len(one)), time.thread_time
-    )
-    return total / len(one)
+    return seconds(lambda: batch.answer(batch.STABLE, SUCTION, questions), time.thread_time) / len(one)
 
 
 def report(what: str, each: float, note: str = "") -> None:

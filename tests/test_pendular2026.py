@@ -8,11 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from pendular.exact.arrays import AT_FOLD, STABLE, suction_range
-from pendular.exact.equilibrium import State
 
 from oracles.laws_mpmath import PENDULAR2026_COEFFICIENTS as PRINTED
 from oracles.laws_mpmath import pendular2026 as oracle
+from pendular.exact.batch import RUPTURE, STABLE, answer
+from pendular.exact.equations import SUCTION
+from pendular.exact.state import State
 from pendular.laws import pendular2026
 from pendular.laws.pendular2026 import COEFFICIENTS, LAW, evaluate, force_star, rupture_star
 
@@ -46,8 +47,7 @@ def exact(asked, separation, suction, angle1, angle2, kappa1=1.0, kappa2=1.0):
     """Separation and force of exact bridges."""
     columns = np.broadcast_arrays(separation, suction, kappa1, angle1, kappa2, angle2)
     questions = np.column_stack([column.ravel() for column in columns]).astype(float)
-    states = np.empty((len(questions), len(State._fields)))
-    suction_range(asked, questions, states, np.empty(len(questions), np.int8), 0, len(questions))
+    states, _ = answer(asked, SUCTION, questions)
     assert np.isfinite(states[:, State._fields.index("force")]).all()
     return states[:, State._fields.index("separation")], states[:, State._fields.index("force")]
 
@@ -74,7 +74,7 @@ def bands():
         for least, most in SUCTION_BANDS:
             angle = np.deg2rad(rng.uniform(low, high, PER_BAND))
             suction = np.exp(rng.uniform(*np.log([least, most]), PER_BAND)) if least else np.zeros(PER_BAND)
-            rupture, _ = exact(AT_FOLD, 0.0, suction, angle, angle)
+            rupture, _ = exact(RUPTURE, 0.0, suction, angle, angle)
             separation = rupture * fractions(rng, PER_BAND)
             force = exact(STABLE, separation, suction, angle, angle)[1]
             samples.append((separation, suction, angle, angle, *EQUAL, rupture, force))
@@ -125,7 +125,7 @@ def test_error_of_unlike_solids_is_as_quoted(largest_kappa, least, of_rupture, o
     kappa1 = rng.uniform(1.0, largest_kappa, count)
     kappa1[::3] = largest_kappa  # 2 and 0: a plane
     solids = (angle1, angle2, kappa1, 2.0 - kappa1)
-    rupture, _ = exact(AT_FOLD, 0.0, suction, *solids)
+    rupture, _ = exact(RUPTURE, 0.0, suction, *solids)
     separation = rupture * np.minimum(fractions(rng, count), 0.9)
     force = exact(STABLE, separation, suction, *solids)[1]
     errors = measured(COEFFICIENTS, separation, suction, *solids, rupture, force)
@@ -196,7 +196,7 @@ def test_rupture_has_the_exact_expansion(solids):
 @pytest.mark.parametrize("solids", SOLIDS)
 def test_exact_bridges_have_the_expansion_too(solids):
     suction = np.array([1e6, 1e8])
-    rupture, _ = exact(AT_FOLD, 0.0, suction, solids[0], solids[1], solids[2], solids[3])
+    rupture, _ = exact(RUPTURE, 0.0, suction, solids[0], solids[1], solids[2], solids[3])
     assert (abs(suction * rupture - expansion(suction, *solids)) < 5.0 * suction ** (-4.0 / 3.0) + 1e-14).all()
 
 
@@ -214,7 +214,7 @@ def test_force_tends_to_the_exact_one_on_the_whole_branch(degrees):
     fraction = np.array([0.0, 0.5, 0.9, 0.99, 0.9999])
     # Worst measured: 8.8e-6, 1.1e-7 and 8.6e-10.
     for suction, allowed in ((1e6, 2e-5), (1e9, 2e-7), (1e12, 2e-9)):
-        rupture, _ = exact(AT_FOLD, 0.0, suction, angle, angle)
+        rupture, _ = exact(RUPTURE, 0.0, suction, angle, angle)
         force = exact(STABLE, fraction * rupture, suction, angle, angle)[1]
         law = [force_star(separation, suction, angle, angle, *EQUAL) for separation in (fraction * rupture).tolist()]
         np.testing.assert_allclose(law, force, rtol=allowed)

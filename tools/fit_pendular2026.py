@@ -22,8 +22,9 @@ from numba import njit
 from numpy.typing import NDArray
 from scipy.optimize import minimize, minimize_scalar
 
-from pendular.exact.arrays import AT_FOLD, STABLE, suction_range
-from pendular.exact.equilibrium import State
+from pendular.exact.batch import RUPTURE, STABLE, answer
+from pendular.exact.equations import SUCTION
+from pendular.exact.state import State
 from pendular.laws import pendular2026, zhao2020
 
 LAW_FILE = Path(pendular2026.__file__)
@@ -57,8 +58,7 @@ def exact(asked: int, separation: Array, suction: Array, angle: Array) -> tuple[
     separation, suction, angle = np.broadcast_arrays(separation, suction, angle)
     one = np.ones(suction.size)
     questions = np.column_stack([separation.ravel(), suction.ravel(), one, angle.ravel(), one, angle.ravel()])
-    states = np.empty((one.size, len(State._fields)))
-    suction_range(asked, questions, states, np.empty(one.size, dtype=np.int8), 0, one.size)
+    states, _ = answer(asked, SUCTION, questions)
     found = [states[:, State._fields.index(field)].reshape(suction.shape) for field in ("separation", "force")]
     if not np.isfinite(found).all():
         raise RuntimeError("an exact bridge was not found")
@@ -67,7 +67,7 @@ def exact(asked: int, separation: Array, suction: Array, angle: Array) -> tuple[
 
 def sample(suction: Array, angle: Array, closeness: Array) -> Sample:
     """Exact bridges at D = (1 - q²) D_c for the closeness q to rupture."""
-    rupture, _ = exact(AT_FOLD, np.zeros(1), suction, angle)
+    rupture, _ = exact(RUPTURE, np.zeros(1), suction, angle)
     separation = rupture * (1.0 - closeness**2)
     return Sample(suction, angle, separation, rupture, exact(STABLE, separation, suction, angle)[1])
 
@@ -183,7 +183,7 @@ def cost(count: int = 1_000_000, repeats: int = 9) -> tuple[float, float]:
     """Seconds for one force, rupture distance included, by this law and by zhao2020, on random contacts."""
     rng = np.random.default_rng(2026)
     suction, angle = 10.0 ** rng.uniform(0.0, 6.0, count), rng.uniform(0.0, np.deg2rad(40.0), count)
-    rupture, _ = exact(AT_FOLD, np.zeros(1), suction, angle)
+    rupture, _ = exact(RUPTURE, np.zeros(1), suction, angle)
     contacts = np.column_stack([rng.uniform(0.0, 0.9, count) * rupture, suction, angle])
     force = np.empty(count)
     kernels = (pendular2026.force_star, zhao2020.force_star)

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from ._check import angle, broadcast, in_range, one_of, quantity, whole_number
 from .dataset import PAIR_DIMS, check_dataset, curvatures, damage_told, solids_of
 from .dataset_grid import Sheet, interpolate_range, longest_rises
-from .exact.batch import RUPTURE, STABLE, bridge_range
+from .exact.batch import RUPTURE, STABLE, answer
 from .exact.equations import SUCTION, VOLUME
 from .exact.follow import FOLDS
 from .exact.state import State
@@ -273,7 +273,5 @@ def _errors(
 def _exact(field: str, asked: int, control: Control, gaps: Floats, values: Floats, pair: tuple[float, float]) -> Floats:
     """One field of the exact solution."""
     questions = np.column_stack([gaps, values, np.tile(solids_of(*pair), (gaps.size, 1))])
-    states, statuses = np.empty((gaps.size, len(State._fields))), np.empty(gaps.size, np.int8)
-    held = VOLUME if control == "volume" else SUCTION
-    bridge_range(asked, FOLDS, held, questions, states, statuses, 0, gaps.size)
+    states, _ = answer(asked, VOLUME if control == "volume" else SUCTION, questions, FOLDS)
     return states[:, State._fields.index(field)]

@@ -9,10 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._check import broadcast, in_range, plain, quantity
-from ._jit import in_chunks
 from ._warn import warn
 from .exact import batch
-from .exact.batch import FAILED, FOUND, NO_BRIDGE
+from .exact.batch import FAILED, FOUND
 from .exact.equations import SUCTION, VOLUME
 from .exact.follow import BRANCH_ENDS, FOLDS
 from .exact.state import State
@@ -25,7 +24,6 @@ Bools = NDArray[np.bool_]
 Asked = Literal["stable", "unstable", "upper", "lower"]
 Limit = Literal["stability", "fold"]
 
-_CHUNK = 1024  # bridges that one thread takes at a time: some milliseconds, against which its start is nothing
 _PER_SOLID = ("contact_radius", "half_filling_angle", "wetted_area", "capillary_tensor")
 _DEEPEST_OVERLAP = 0.5  # over the smaller radius
 
@@ -113,21 +111,14 @@ def _refuse_deep_overlap(separation: Floats, smaller_radius: Floats) -> None:
 
 def solve(problem: Problem, asked: Asked, limit: Limit = "stability") -> Bridge:
     """Answer all rows."""
-    count = len(problem.rows)
-    states, statuses = np.empty((count, len(State._fields))), np.empty(count, np.int8)
-    question = (_ASKED[asked], _LIMITS[limit], problem.held, problem.rows)
-    in_chunks(batch.bridge_range, count, _CHUNK, *question, states, statuses)
+    states, statuses = batch.answer(_ASKED[asked], problem.held, problem.rows, _LIMITS[limit])
     return restore(problem, states, statuses, ())
 
 
 def trace(problem: Problem, points: int, limit: Limit) -> Bridge:
     """Answer all rows with whole curves, of so many points each."""
-    count = len(problem.rows)
-    states, statuses = np.empty((count, points, len(State._fields))), np.empty(count, np.int8)
-    in_chunks(batch.curve_range, count, 1, _LIMITS[limit], problem.held, problem.rows, states, statuses)
-    each = np.repeat(statuses[:, None], points, axis=1)
-    each[(each == FOUND) & np.isnan(states[..., 0])] = NO_BRIDGE
-    return restore(problem, states, each, (points,))
+    states, statuses = batch.draw(problem.held, problem.rows, points, _LIMITS[limit])
+    return restore(problem, states, statuses, (points,))
 
 
 def restore(problem: Problem, states: Floats, statuses: NDArray[np.int8], extra: tuple[int, ...]) -> Bridge:

@@ -10,13 +10,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .._jit import kernel
+from .._jit import in_chunks, kernel
 from .algebra import Four, moved, unit_vector
 from .clearance import radius_range
 from .ends import lower_end, stable_bridge, unstable_bridge, upper_end
 from .equations import SUCTION, VOLUME, system_at
 from .follow import (
     ARRIVED,
+    BRANCH_ENDS,
     ENDED,
     FOLD,
     LOST,
@@ -50,6 +51,7 @@ _LARGEST_MISS = 1e-9  # of the equations of an answer
 _MOST_STEPS = 14
 _THREAD = 0.03  # thinnest circle of a drawn bridge over the widest of its branch
 _MOST_NODES = 1200
+_CHUNK = 1024  # bridges that one thread takes at a time: some milliseconds, against which its start is nothing
 _STIFFNESS, _INDEX = State._fields.index("stiffness"), State._fields.index("unstable_directions")
 
 
@@ -171,6 +173,14 @@ def bridge_range(
             states[i, :] = math.nan
 
 
+def answer(asked: int, control: int, questions: Rows, limit: int = BRANCH_ENDS) -> tuple[Rows, Statuses]:
+    """Answer rows of questions on all threads: their states and statuses."""
+    count = len(questions)
+    states, statuses = np.empty((count, len(State._fields))), np.empty(count, np.int8)
+    in_chunks(bridge_range, count, _CHUNK, asked, limit, control, questions, states, statuses)
+    return states, statuses
+
+
 @kernel
 def _spread(nodes: Nodes, count: int, curve: Curve, states: Rows, skips_first: bool) -> None:
     """States evenly spaced over the recorded nodes, without the last of them, or without the first."""
@@ -267,3 +277,13 @@ def curve_range(
         statuses[i] = status
         if status != FOUND:
             states[i] = math.nan
+
+
+def draw(control: int, questions: Rows, points: int, limit: int = BRANCH_ENDS) -> tuple[NDArray[np.float64], Statuses]:
+    """Whole curves for rows of questions, on all threads: (rows, points, fields), and the status of each point."""
+    count = len(questions)
+    states, statuses = np.empty((count, points, len(State._fields))), np.empty(count, np.int8)
+    in_chunks(curve_range, count, 1, limit, control, questions, states, statuses)
+    each = np.repeat(statuses[:, None], points, axis=1)
+    each[(each == FOUND) & np.isnan(states[..., 0])] = NO_BRIDGE
+    return states, each
