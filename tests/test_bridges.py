@@ -19,6 +19,7 @@ GRAINS = pl.Pair(radius=50e-6, contact_angle=math.radians(20.0))
 PLATE = pl.Pair(radius=(50e-6, math.inf), contact_angle=(0.35, 0.9))
 UNEQUAL = pl.Pair(radius=(50e-6, 400e-6), contact_angle=(0.2, 0.7))
 PER_SOLID = ("contact_radius", "half_filling_angle", "wetted_area")
+TRUTHS = ("exists", "stable", "sideways_stable", "neck_inside")
 FIELDS = [field.name for field in dataclasses.fields(pl.Bridge) if not field.name.startswith("_")]
 
 CONTROLS = pytest.mark.parametrize("control", [{"suction": 20e3}, {"suction": -500.0}, {"volume": 1e-15}])
@@ -52,7 +53,8 @@ def test_numbers_in_python_scalars_out(control):
         if name in (*PER_SOLID, "capillary_tensor"):
             assert value.shape == (2,), name
         else:
-            assert type(value) is (bool if name in ("exists", "stable", "neck_inside") else float), name
+            kind = {"unstable_directions": int}.get(name, bool if name in TRUTHS else float)
+            assert type(value) is kind, name
 
 
 @pytest.mark.parametrize("control", ["suction", "volume"])
@@ -140,7 +142,7 @@ def test_beyond_rupture_there_is_no_bridge_and_no_error(pair, control):
         for name, field in fields_of(beyond).items():
             if name == "force":
                 np.testing.assert_array_equal(field, 0.0)
-            elif field.dtype == bool:
+            elif field.dtype in (bool, int):
                 assert not field.any(), name
             else:
                 assert np.isnan(field).all(), name
@@ -174,11 +176,15 @@ def test_both_branches_meet_at_rupture(pair, control):
 @pytest.mark.parametrize("volume", [1e-6, 0.05])
 def test_stability_is_lost_before_the_fold_between_equal_solids(degrees, volume):
     pair = pl.Pair(1.0, math.radians(degrees))
-    first = pl.rupture(pair, volume=volume, liquid=LIQUID, limit="stability").separation
-    assert 0.5 < first / pl.rupture(pair, volume=volume, liquid=LIQUID).separation < 1.0
-    around = pl.bridge(pair, [0.999 * first, 1.001 * first], volume=volume, liquid=LIQUID)
-    np.testing.assert_array_equal(around.exists, True)
-    np.testing.assert_array_equal(around.stable, [True, False])
+    first = pl.rupture(pair, volume=volume, liquid=LIQUID).separation
+    assert 0.5 < first / pl.rupture(pair, volume=volume, liquid=LIQUID, limit="fold").separation < 1.0
+    gaps = [0.999 * first, 1.001 * first]
+    around = pl.bridge(pair, gaps, volume=volume, liquid=LIQUID)
+    np.testing.assert_array_equal(around.exists, [True, False])
+    symmetric = pl.bridge(pair, gaps, volume=volume, liquid=LIQUID, limit="fold")
+    np.testing.assert_array_equal(symmetric.exists, True)
+    np.testing.assert_array_equal(symmetric.stable, [True, False])
+    np.testing.assert_array_equal(symmetric.unstable_directions, [0, 1])
 
 
 @pytest.mark.parametrize(

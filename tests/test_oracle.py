@@ -18,13 +18,13 @@ UNIT = pl.Liquid(surface_tension=1.0)
 
 # field of the answer: its value in the file, and the largest relative error allowed (measured)
 FIELDS = {
-    "force": (lambda n: 2.0 * np.pi * n["lam"], 1e-12),  # 7e-14
-    "volume": (lambda n: n["V"], 1e-12),  # 7e-14
+    "force": (lambda n: 2.0 * np.pi * n["lam"], 2e-12),  # 1.4e-12 next to a fold at a gap of 0.01 contact radii
+    "volume": (lambda n: n["V"], 2e-12),  # 1.5e-12, there too
     "liquid_gas_area": (lambda n: n["area"], 1e-12),  # 3e-14
     "neck_radius": (lambda n: n["Y0"], 1e-12),  # 6e-14
     "contact_radius": (lambda n: np.stack([n["Y1"], n["Y2"]], axis=-1), 1e-12),  # 5e-14
     "half_filling_angle": (lambda n: np.stack([n["delta1"], n["delta2"]], axis=-1), 1e-12),
-    "wetted_area": (lambda n: np.stack([n["wetted1"], n["wetted2"]], axis=-1), 1e-12),
+    "wetted_area": (lambda n: np.stack([n["wetted1"], n["wetted2"]], axis=-1), 2e-12),  # 1.5e-12, there too
     "stiffness": (lambda n: 2.0 * np.pi * n["dlam_dgap"], 1e-9),  # 2e-11, near the fold
 }
 
@@ -41,7 +41,8 @@ def ask(rows):
     pair = pl.Pair(radius=(n["R1"], n["R2"]), contact_angle=(n["theta1"], n["theta2"]))
     control, branch = rows[0]["control"], rows[0]["branch"]
     held = {control: n["H"] if control == "suction" else n["V"]}
-    return pl.bridge(pair, n["gap"], **held, branch=branch, liquid=UNIT), n
+    # states past the pitchfork of mirror images belong to the branch that ends in the fold
+    return pl.bridge(pair, n["gap"], **held, branch=branch, limit="fold", liquid=UNIT), n
 
 
 def group(control, branch):
@@ -75,10 +76,9 @@ def test_energy_and_tensor(control, branch):
     """Sums of terms of both signs, measured by their terms."""
     answer, n = ask(group(control, branch))
     terms = n["area"] + np.abs(np.cos(n["theta1"])) * n["wetted1"] + np.abs(np.cos(n["theta2"])) * n["wetted2"]
-    assert np.max(np.abs(answer.surface_energy - n["E"]) / terms) < 1e-12  # 2e-13
-    # n11 is the difference of two terms larger by a factor HY, which is 1e6 for the largest suction
-    assert np.max(np.abs(answer.capillary_tensor[:, 0] / n["n11"] - 1.0)) < 1e-9
-    assert np.max(np.abs(answer.capillary_tensor[:, 1] - n["n33"]) / n["area"]) < 1e-9
+    assert np.max(np.abs(answer.surface_energy - n["E"]) / terms) < 2e-12  # 1.3e-12
+    assert np.max(np.abs(answer.capillary_tensor[:, 0] / n["n11"] - 1.0)) < 1e-12
+    assert np.max(np.abs(answer.capillary_tensor[:, 1] - n["n33"]) / n["area"]) < 1e-12
 
 
 def test_suction_found_at_constant_volume():

@@ -13,7 +13,19 @@ from .by_table import bridge_by_table, rupture_by_table
 from .laws import laws
 from .liquid import HUMIDITY_UNCERTAINTY, Liquid, humidity_from_suction, suction_from_humidity, warn_kelvin
 from .pair import Pair
-from .problem import Asked, Control, ConvergenceWarning, Limit, control_of, reduce, solve, trace
+from .problem import (
+    Asked,
+    Control,
+    ConvergenceWarning,
+    Limit,
+    Problem,
+    control_name,
+    control_of,
+    control_si,
+    reduce,
+    solve,
+    trace,
+)
 from .result import FIELDS, Bridge, Profile
 
 __all__ = ["FIELDS", "Bridge", "ConvergenceWarning", "Pair", "Profile", "bridge", "curve", "rupture"]
@@ -108,7 +120,7 @@ def bridge(
     if _is_approximate(method):
         one_of("branch", branch, ("stable",))
         return _BRIDGES[method](problem) if method in _BRIDGES else bridge_by_law(problem, method)
-    answer = _echo(solve(problem, branch, limit), separation=problem.separation)
+    answer = _echo(solve(problem, branch, limit), problem)
     if humidity is not None:
         _judge_humidity(pair, separation, control, liquid, branch, answer)
     return answer
@@ -240,9 +252,12 @@ def _is_approximate(method: str) -> bool:
     return method != "exact"
 
 
-def _echo(answer: Bridge, separation: Floats) -> Bridge:
-    """Give back the separation that was asked, not the one that the solver met to the last digit but one."""
-    return replace(answer, separation=plain(np.where(answer.exists, separation, answer.separation)))
+def _echo(answer: Bridge, problem: Problem) -> Bridge:
+    """Give back the separation and the control that were asked, not those that the solver met to the last digits."""
+    name = control_name(problem)
+    asked = {"separation": problem.separation, name: control_si(problem).reshape(problem.shape)}
+    met = {field: plain(np.where(answer.exists, value, getattr(answer, field))) for field, value in asked.items()}
+    return replace(answer, **met)
 
 
 def _judge_humidity(

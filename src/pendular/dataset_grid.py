@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ._jit import kernel
 from .exact.algebra import Four
-from .exact.meridian import areas_of, measure_arc, place_after, turn_of
+from .exact.meridian import measure_arc, place_after, tensor_of, turn_of
 from .laws.contact_circle import Contact, cap_volume, contact_at, wetted_arc_of, wetted_area
 
 Vector = NDArray[np.float64]
@@ -92,9 +92,9 @@ def _side(curvature: float, force: float, contact: Contact) -> Side:
     middle = place_after(complex(neck, 0.0), length, 1.0, turn_of(turn)).zeta
     z = Four(math.log(abs(middle)), math.atan2(middle.imag, middle.real), math.log(length), turn)
     along, liquid = measure_arc(z, True, True)
-    area, _across = areas_of(z)
+    across, axial = tensor_of(z)
     volume = math.pi * liquid.value - cap_volume(contact)
-    return Side(along.value - contact.sagitta, volume, area, wetted_area(contact))
+    return Side(along.value - contact.sagitta, volume, 2.0 * across + axial, wetted_area(contact))
 
 
 @kernel

@@ -26,6 +26,10 @@ Limit = Literal["stability", "fold"]
 
 _PER_SOLID = ("contact_radius", "half_filling_angle", "wetted_area", "capillary_tensor")
 _DEEPEST_OVERLAP = 0.5  # over the smaller radius
+_VOLUMES, _MOST_SUCTION = (
+    (1e-24, 1e3),
+    1e13,
+)  # the domain, over R̄³ and γ/R̄: volumes, and the largest suction or pressure
 
 _ASKED: dict[Asked, int] = {
     "stable": batch.STABLE,
@@ -89,6 +93,9 @@ def reduce(pair: Pair, control: Control, liquid: Liquid, separation: ArrayLike) 
     gap, value, radius1, radius2, angle1, angle2 = (np.ravel(array) for array in arrays)
     length = np.minimum(radius1, radius2)
     _refuse_deep_overlap(arrays[0], length.reshape(arrays[0].shape))
+    with np.errstate(divide="ignore"):
+        mean_radius = 2.0 / (1.0 / radius1 + 1.0 / radius2)
+    _refuse_beyond_domain(control, value, mean_radius, liquid)
     if control.name == "volume":
         held, reduced = VOLUME, value / length**3
     else:
@@ -106,6 +113,23 @@ def _refuse_deep_overlap(separation: Floats, smaller_radius: Floats) -> None:
         raise ValueError(
             f"separation{place}: {separation[index]} m is not > {-_DEEPEST_OVERLAP * smaller_radius[index]:.6g}; "
             f"an overlap may reach half the smaller radius"
+        )
+
+
+def _refuse_beyond_domain(control: Control, value: Floats, mean_radius: Floats, liquid: Liquid) -> None:
+    """Refuse what the solver was not tried on: it has no meaning for grains either."""
+    if control.name == "volume":
+        unit, low, high, symbol = mean_radius**3, *_VOLUMES, "m^3"
+    else:
+        unit, low, high, symbol = liquid.surface_tension / mean_radius, -_MOST_SUCTION, _MOST_SUCTION, "Pa"
+    strange = np.flatnonzero(~((value >= low * unit) & (value <= high * unit)))
+    if strange.size:
+        i = strange[0]
+        allowed = f"[{low * unit[i]:.6g}, {high * unit[i]:.6g}] {symbol}"
+        scale = "R³" if control.name == "volume" else "γ/R"
+        raise ValueError(
+            f"{control.name}: {value[i]:.6g} {symbol} is not in {allowed}, {low:g} to {high:g} {scale} with the mean "
+            f"radius R = {mean_radius[i]:.6g} m"
         )
 
 
@@ -165,7 +189,7 @@ def restore(problem: Problem, states: Floats, statuses: NDArray[np.int8], extra:
         contact_radius=pair_of(state["radius1"], state["radius2"]) * unit[..., None],
         half_filling_angle=pair_of(state["filling1"], state["filling2"]),
         wetted_area=wetted * unit[..., None] ** 2,
-        capillary_tensor=pair_of(state["tensor"], state["area"] - 2.0 * state["tensor"]) * unit[..., None] ** 2,
+        capillary_tensor=pair_of(state["across_tensor"], state["axial_tensor"]) * unit[..., None] ** 2,
         _meridian=np.stack(
             [state["middle_radius"] * unit, state["middle_slope"], state["half_length"] * unit], axis=-1
         ),

@@ -36,7 +36,7 @@ from .follow import (
 from .guess import guess_at
 from .morph import Task, held_of
 from .newton import newton_to
-from .search import is_symmetric
+from .search import at_separation, is_symmetric
 from .state import Description, State, describe
 
 Rows = NDArray[np.float64]
@@ -47,7 +47,8 @@ STABLE, UNSTABLE, RUPTURE, LOWER_END = 0, 1, 2, 3
 FOUND, NO_BRIDGE, FAILED = 0, 1, 2
 
 _MET = 1e-13  # largest miss of the end of a branch, over the length of the arc, that is the end itself
-_LARGEST_MISS = 1e-9  # of the equations of an answer
+_LARGEST_MISS = 1e-10  # of the equations of an answer
+_MISS_WHERE_CLOSED = 1e-8  # where a contact circle has nearly closed, its slope is known no better
 _MOST_STEPS = 14
 _THREAD = 0.03  # thinnest circle of a drawn bridge over the widest of its branch
 _MOST_NODES = 1200
@@ -72,9 +73,9 @@ class End(NamedTuple):
 
 
 @kernel
-def _store(description: Description, row: Rows) -> int:
+def _store(description: Description, allowed: float, row: Rows) -> int:
     """Store a state in a row, if it is a bridge that holds what it should."""
-    if not description.miss <= _LARGEST_MISS:
+    if not description.miss <= allowed:
         return FAILED
     if not description.is_bridge:
         return NO_BRIDGE
@@ -90,7 +91,8 @@ def _store_end(end: End, row: Rows) -> int:
     At the end of a branch the index and the slope are the signs of rounding errors: what is stored is that of the
     branch which ends there, and at a fold the force falls, or at a lower end rises, infinitely fast.
     """
-    status = _store(describe(end.stance.z, end.curve.held, end.curve.symmetric), row)
+    allowed = _MISS_WHERE_CLOSED if end.event == ENDED else _LARGEST_MISS
+    status = _store(describe(end.stance.z, end.curve.held, end.curve.symmetric), allowed, row)
     row[_INDEX] = 0.0 if end.event != ARRIVED else float(end.stance.unstable)
     return status
 
@@ -105,9 +107,13 @@ def _end_of(walk: Walk, is_known: bool) -> End:
 @kernel
 def _bridge_of(walk: Walk, separation: float) -> End:
     """The bridge at a separation at which a walk arrived, or that of the end of the branch, if it is there."""
-    status = FOUND if walk.event == ARRIVED else FAILED if walk.event == LOST else NO_BRIDGE
-    if status == NO_BRIDGE and abs(walk.stance.separation - separation) <= _MET * math.exp(walk.stance.z.log_length):
-        status = FOUND
+    miss = abs(walk.stance.separation - separation) * math.exp(-walk.stance.z.log_length)
+    if walk.event == LOST:
+        status = FAILED
+    elif walk.event == ARRIVED:
+        status = FOUND if miss <= _LARGEST_MISS else FAILED
+    else:
+        status = FOUND if miss <= _MET else NO_BRIDGE
     return End(walk.stance, walk.curve, walk.event, status)
 
 
@@ -145,7 +151,7 @@ def _directly(task: Task, row: Rows) -> int:
     description = describe(z, held, is_symmetric(task))
     if description.state.unstable_directions != 0.0 or not description.is_bridge:
         return FAILED
-    return _store(description, row)
+    return _store(description, _LARGEST_MISS, row)
 
 
 @kernel
@@ -198,7 +204,7 @@ def _spread(nodes: Nodes, count: int, curve: Curve, states: Rows, skips_first: b
         z = moved(before, place - node, step)
         if 0.0 < place - node < 1.0:
             z, _steps, _way = corrected(z, curve, unit_vector(step))
-        _store(describe(z, curve.held, curve.symmetric), states[i])
+        _store(describe(z, curve.held, curve.symmetric), _LARGEST_MISS, states[i])
 
 
 @kernel
@@ -206,7 +212,7 @@ def _first_of(task: Task, limit: int, nodes: Nodes) -> End:
     """Where a curve begins: the bridge at contact, or the lower end of the stable branch."""
     walk, is_known = lower_end(task, limit, nodes)
     if is_known and walk.event == ARRIVED:
-        return _bridge_of(walk, walk.stance.separation)
+        return _bridge_of(stable_bridge(at_separation(task, 0.0), limit, nodes), 0.0)
     return _end_of(walk, is_known)
 
 

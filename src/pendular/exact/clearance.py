@@ -25,8 +25,8 @@ _GAUSS = ((-math.sqrt(0.6), 5.0 / 9.0), (0.0, 8.0 / 9.0), (math.sqrt(0.6), 5.0 /
 def opening_of(z: Four, system: System, held: Held) -> float:
     """The smaller contact circle over ℓ; negative where one is past the far pole of its solid, or the arc winds up."""
     first, second = system.first, system.second
-    filling1 = half_filling_angle(held.first, first.cos_slope, first.sin_slope)
-    filling2 = half_filling_angle(held.second, second.cos_slope, second.sin_slope)
+    filling1 = half_filling_angle(held.first, first.radius, first.cos_slope, first.sin_slope)
+    filling2 = half_filling_angle(held.second, second.radius, second.cos_slope, second.sin_slope)
     is_regular = (
         abs(z.turn) < _MOST_TURN
         and abs(z.log_radius) < _FARTHEST

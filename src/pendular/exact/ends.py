@@ -55,6 +55,8 @@ def walk_from_anchor(task: Task, going: float, target: float, stops_at: int, nod
     stance, curve = set_out(stance.z, held_of(task), is_symmetric(task), going)
     if not is_stable:
         return Walk(LOST, stance, curve, 0, going), False
+    if abs(stance.separation - target) < _THERE * math.exp(stance.z.log_length):
+        return Walk(ARRIVED, stance, curve, 0, going), True
     return follow(stance, curve, target, stops_at, nodes[:0]), True
 
 
@@ -201,7 +203,7 @@ def upper_end(task: Task, stops_at: int, nodes: Nodes) -> tuple[Walk, bool]:
 
 @kernel
 def lower_end(task: Task, stops_at: int, nodes: Nodes) -> tuple[Walk, bool]:
-    """The end of the stable branch towards contact; the walk arrives if it goes on to D = 0."""
+    """The end of the stable branch towards contact; the walk arrives if the branch goes on to D = 0."""
     walk, is_found = walk_from_anchor(task, -1.0, 0.0, stops_at, nodes)
     if is_found and walk.stance.separation <= 0.0:
         return Walk(ARRIVED, walk.stance, walk.curve, walk.nodes, walk.going), True
@@ -240,15 +242,10 @@ def stable_bridge(task: Task, stops_at: int, nodes: Nodes) -> Walk:
             return top
         stance, curve = back_from(top.stance, top.curve)
         walk = follow(stance, curve, task.separation, stops_at, nodes[:0])
-        if walk.event != LOST:
+        if walk.event == ARRIVED:
             return walk
-    going = 1.0
-    stance, is_stable = anchor(task, nodes)
-    if is_stable and task.separation < stance.separation:
-        going = -1.0
-    stance, curve = set_out(stance.z, held_of(task), is_symmetric(task), going)
-    if not is_stable:
-        return Walk(LOST, stance, curve, 0, going)
-    if abs(stance.separation - task.separation) < _THERE * math.exp(stance.z.log_length):
-        return Walk(ARRIVED, stance, curve, 0, going)
-    return follow(stance, curve, task.separation, stops_at, nodes[:0])
+    walk, _is_found = walk_from_anchor(task, 1.0, task.separation, stops_at, nodes)
+    if walk.event == ARRIVED or walk.stance.separation < task.separation:
+        return walk
+    walk, _is_found = walk_from_anchor(task, -1.0, task.separation, stops_at, nodes)
+    return walk

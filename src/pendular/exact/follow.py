@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._jit import kernel
-from .algebra import Four, dot, minors, moved, normal, scaled, solve4, unit_vector
+from .algebra import Four, dot, largest, minors, moved, normal, scaled, solve4, unit_vector
 from .clearance import opening_of
 from .equations import SUCTION, VOLUME, Held, first_row, held_row, system_at
 from .stability import ladder_at
@@ -34,6 +34,7 @@ _SMALL_CORRECTION = 1e-11
 _CLOSED = 1e-6  # contact circle over ℓ at which it has closed
 _NEARLY_CLOSED = 1e-2  # where a curve that cannot be followed on ends all the same: the circle closes in a fold
 _FORK_STEP = 0.02  # of the slope in the middle, away from a pitchfork
+_LAST_CHANGE = 1e-5  # in the last steps to a bridge
 _PROBE = 1e-3  # way beyond a fold to where the signs of the ladder are certain
 _ROUNDING = 1e-30
 _FLAT = 1e-6  # slope of a fold
@@ -197,6 +198,38 @@ def _stance_after(start: Stance, step: float, curve: Curve) -> Stance:
 
 
 @kernel
+def _arrived(start: Stance, low: float, high: float, target: float, curve: Curve, unstable: int) -> Stance:
+    """The bridge at the target between two lengths of a step; its stability is that of its neighbours."""
+    near = _locate(ARRIVED, start, low, high, target, curve)
+    z, size = near.z, _LAST_CHANGE
+    for _ in range(_MOST_CORRECTIONS):  # next to a fold, where separations are all the same, none is of use
+        change = _change_to(target, z, curve)
+        if not largest(change) < 0.5 * size:
+            break
+        z, size = moved(z, 1.0, change), largest(change)
+    return _with_unstable(stance_at(z, curve), unstable)
+
+
+@kernel
+def _change_to(target: float, z: Four, curve: Curve) -> Four:
+    """Newton's step to the bridge of a curve at a separation."""
+    held = curve.held
+    system = system_at(z, held, True, held.control == VOLUME)
+    first, row = first_row(z, system, curve.symmetric), held_row(z, system, held)
+    change, _det = solve4(
+        first.rates,
+        system.contact2.rates,
+        system.separation.rates,
+        row.rates,
+        -first.value,
+        -system.contact2.value,
+        target - system.separation.value,
+        -row.value,
+    )
+    return change
+
+
+@kernel
 def _with_unstable(stance: Stance, unstable: int) -> Stance:
     """A stance whose stability is known from its neighbours: next to a fold its own is the sign of a rounding error."""
     return Stance(stance.z, stance.tangent, stance.separation, stance.slope, unstable, stance.margin, stance.opening)
@@ -271,14 +304,14 @@ def follow(stance: Stance, curve: Curve, target: float, stops_at: int, nodes: No
         if step == 0.0:
             return Walk(stretch.event, stance, curve, count, going)
         if _encloses(stance, stretch.end, target):
-            found = _with_unstable(_locate(ARRIVED, stance, 0.0, stretch.reach, target, curve), stance.unstable)
+            found = _arrived(stance, 0.0, stretch.reach, target, curve, stance.unstable)
             return Walk(ARRIVED, found, curve, _record(nodes, count, found.z), going)
         if stretch.event != ARRIVED:
             count = _record(nodes, count, stretch.end.z)
             if stops_at == BRANCH_ENDS or (stops_at == FOLDS and stretch.event == FOLD):
                 return Walk(stretch.event, stretch.end, curve, count, going)
             if _encloses(stretch.end, after, target):
-                found = _with_unstable(_locate(ARRIVED, stance, stretch.reach, step, target, curve), after.unstable)
+                found = _arrived(stance, stretch.reach, step, target, curve, after.unstable)
                 return Walk(ARRIVED, found, curve, _record(nodes, count, found.z), going)
         stance = after
         count = _record(nodes, count, stance.z)

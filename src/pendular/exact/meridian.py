@@ -234,15 +234,15 @@ def _sum_both(real: float, imag: float, eta: float, cut: Cut, x: Nodes, weight: 
 
 
 @summing_kernel
-def _sum_areas(real: float, imag: float, eta: float, cut: Cut, x: Nodes, weight: Nodes) -> tuple[float, float]:
-    """∫Y ds and ∫Y cos²φ ds over a cut, in units of τ²."""
-    area = across = 0.0
+def _sum_tensor(real: float, imag: float, eta: float, cut: Cut, x: Nodes, weight: Nodes) -> tuple[float, float]:
+    """∫Y cos²φ ds and ∫Y sin²φ ds over a cut, in units of τ²."""
+    across = axial = 0.0
     for j in range(x.size):
         zr, zi, ds, _v, _w, _p = node_at(real, imag, 0.5 * eta, cut, x[j], weight[j])
-        radius = math.sqrt(zr * zr + zi * zi)
-        area += ds * radius
-        across += ds * zr * zr / radius
-    return area, across
+        share = ds / math.sqrt(zr * zr + zi * zi)
+        across += share * zr * zr
+        axial += share * zi * zi
+    return across, axial
 
 
 @kernel
@@ -368,9 +368,9 @@ def _chain(panel: Panel, by_real: float, by_imag: float, by_tau: float, by_eta: 
 
 
 @kernel
-def areas_of(z: Four) -> tuple[float, float]:
-    """Liquid-gas area A = 2π∫Y ds, and n11 = π∫Y cos²φ ds."""
-    area = across = 0.0
+def tensor_of(z: Four) -> tuple[float, float]:
+    """Orientation of the meniscus: n11 = π∫Y cos²φ ds and n33 = 2π∫Y sin²φ ds; its area is 2 n11 + n33."""
+    across = axial = 0.0
     panels = panels_of(z.turn)
     for number in range(panels):
         panel = panel_of(z, number, panels)
@@ -378,11 +378,11 @@ def areas_of(z: Four) -> tuple[float, float]:
         real, imag = panel.place.zeta.real / tau, panel.place.zeta.imag / tau
         cut, growth, cuts = cuts_of(real, imag, panel.eta)
         for _ in range(cuts):
-            more, more_across = _sum_areas(real, imag, panel.eta, cut, _NODES_24, _WEIGHTS_24)
-            area += tau * tau * more
+            more_across, more_axial = _sum_tensor(real, imag, panel.eta, cut, _NODES_24, _WEIGHTS_24)
             across += tau * tau * more_across
+            axial += tau * tau * more_axial
             cut = Cut(cut.pole, cut.spread, cut.middle * growth, cut.half)
-    return 2.0 * math.pi * area, math.pi * across
+    return math.pi * across, 2.0 * math.pi * axial
 
 
 @kernel

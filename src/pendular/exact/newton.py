@@ -10,7 +10,7 @@ from .meridian import Row
 _LONGEST_STEP = 1.0
 _MOST_TURN = 9.0  # |ω| beyond which an arc winds about itself
 _COARSE_STEP = 1e-4  # from which on the finer nodes are used
-_LAST_STEP = 1e-8  # quadratic convergence: what would follow is of the order of its square
+_LEFT = 1e-16  # largest change that would follow
 _NEARLY_HELD = 0.3  # share of the volume above which its logarithm is what is corrected
 
 
@@ -25,7 +25,7 @@ def held_target(row: Row, held: Held) -> float:
 @kernel
 def newton_to(z: Four, separation: float, held: Held, most: int) -> tuple[Four, bool]:
     """From a guess to the bridge at a separation, and whether it was reached."""
-    with_volume, fine = held.control == VOLUME, False
+    with_volume, fine, before = held.control == VOLUME, False, math.inf
     for _ in range(most):
         system = system_at(z, held, fine, with_volume)
         row = held_row(z, system, held)
@@ -45,7 +45,8 @@ def newton_to(z: Four, separation: float, held: Held, most: int) -> tuple[Four, 
         z = moved(z, min(1.0, _LONGEST_STEP / size), change)
         if not abs(z.turn) < _MOST_TURN:
             break
-        if fine and size < _LAST_STEP:
+        # what is left after a step is its square, by the factor that made it the square of the one before
+        if fine and size * (size / before) ** 2 < _LEFT:
             return z, True
-        fine = size < _COARSE_STEP
+        fine, before = size < _COARSE_STEP, size
     return z, False

@@ -7,7 +7,7 @@ from .._jit import kernel
 from .algebra import Four, dot, minors, normal
 from .clearance import is_clear, opening_of
 from .equations import SUCTION, Held, curvature_of, first_row, force_of, force_rates, held_row, system_at
-from .meridian import areas_of, extreme_phases, middle_of
+from .meridian import extreme_phases, middle_of, tensor_of
 from .solids import contact_with, half_filling_angle, wetted_area
 from .stability import ladder_at
 
@@ -20,7 +20,8 @@ class State(NamedTuple):
     force: float  # λ
     volume: float  # V
     area: float  # liquid-gas
-    tensor: float  # n11, one of the two equal transverse components
+    across_tensor: float  # n11 = π∫Y cos²φ ds, one of the two equal components across the axis
+    axial_tensor: float  # n33 = 2π∫Y sin²φ ds
     stiffness: float  # dλ/dD with the given control held
     neck_radius: float  # Y0 of the surface; NaN for one that pushes, which has no neck
     neck_inside: float  # 1 if the neck lies between the solids
@@ -69,22 +70,23 @@ def describe(z: Four, held: Held, symmetric: bool) -> Description:
     tangent = normal(minors(row.rates, system.contact2.rates), held_back.rates)
     ladder = ladder_at(z, system)
     force = force_of(z)
-    area, tensor = areas_of(z)
+    across, axial = tensor_of(z)
     neck, neck_inside = neck_of(z)
     state = State(
         system.separation.value,
         curvature_of(z),
         force,
         math.pi * system.volume.value,
-        area,
-        tensor,
+        2.0 * across + axial,
+        across,
+        axial,
         dot(force_rates(z), tangent) / dot(system.separation.rates, tangent),
         neck,
         1.0 if neck_inside else 0.0,
         first.radius,
         second.radius,
-        half_filling_angle(held.first, first.cos_slope, first.sin_slope),
-        half_filling_angle(held.second, second.cos_slope, second.sin_slope),
+        half_filling_angle(held.first, first.radius, first.cos_slope, first.sin_slope),
+        half_filling_angle(held.second, second.radius, second.cos_slope, second.sin_slope),
         wetted_area(first.radius, contact1.height),
         wetted_area(second.radius, contact2.height),
         math.exp(z.log_radius),

@@ -73,13 +73,14 @@ def contact_with(solid: Solid, radius: float, cos_slope: float, sin_slope: float
 
 
 @kernel
-def half_filling_angle(solid: Solid, cos_slope: float, sin_slope: float) -> float:
+def half_filling_angle(solid: Solid, radius: float, cos_slope: float, sin_slope: float) -> float:
     """δ in (-π, π]; 0 on a plane, π on its wrong side."""
     sine = solid.cos_angle * cos_slope - solid.sin_angle * sin_slope
     cosine = solid.sin_angle * cos_slope + solid.cos_angle * sin_slope
     if solid.curvature == 0.0:
         return 0.0 if cosine > 0.0 else math.pi
-    return math.atan2(sine, cosine)
+    # at the contact sin δ is kY, which has all digits where δ is small
+    return math.atan2(solid.curvature * radius if sine > 0.0 else sine, cosine)
 
 
 @kernel
