@@ -93,7 +93,7 @@ def _store_end(end: End, row: Rows) -> int:
     """
     allowed = _MISS_WHERE_CLOSED if end.event == ENDED else _LARGEST_MISS
     status = _store(describe(end.stance.z, end.curve.held, end.curve.symmetric), allowed, row)
-    row[_INDEX] = 0.0 if end.event != ARRIVED else float(end.stance.unstable)
+    row[_INDEX] = float(end.stance.unstable)
     return status
 
 
@@ -249,10 +249,8 @@ def trace(limit: int, task: Task, states: Rows, nodes: Nodes) -> int:
     _store_end(_end_of(walk, True), states[middle])
     if walk.event == FOLD:
         states[middle, _STIFFNESS] = -math.inf
-    for i in range(middle):
-        states[i, _INDEX] = 0.0
     if first.event == FOLD:
-        states[0, _STIFFNESS] = math.inf
+        states[0, _STIFFNESS], states[0, _INDEX] = math.inf, 0.0
     if first.event == ARRIVED:
         states[0, 0] = 0.0  # contact, which the solver meets to rounding
     stance, curve = beyond(walk)

@@ -16,25 +16,10 @@ from .solids import Solid, contact_with, depth_inside, half_filling_angle
 
 _MOST_TURN = 6.3  # |ω|: an arc of a whole wave
 _FARTHEST = 60.0  # |ln Ym| and |ln ℓ|
+_CLOSED_NECK = 1e-6  # over ℓ: a thread that holds nothing
 _PIECES = 16  # of a cut, at whose ends the meridian is looked at
 _DEEPEST = 1e-7  # over the arc length; contact circles themselves lie at zero
 _GAUSS = ((-math.sqrt(0.6), 5.0 / 9.0), (0.0, 8.0 / 9.0), (math.sqrt(0.6), 5.0 / 9.0))
-
-
-@kernel
-def opening_of(z: Four, system: System, held: Held) -> float:
-    """The smaller contact circle over ℓ; negative where one is past the far pole of its solid, or the arc winds up."""
-    first, second = system.first, system.second
-    filling1 = half_filling_angle(held.first, first.radius, first.cos_slope, first.sin_slope)
-    filling2 = half_filling_angle(held.second, second.radius, second.cos_slope, second.sin_slope)
-    is_regular = (
-        abs(z.turn) < _MOST_TURN
-        and abs(z.log_radius) < _FARTHEST
-        and abs(z.log_length) < _FARTHEST
-        and min(filling1, filling2) >= 0.0
-        and max(filling1, filling2) < math.pi
-    )
-    return min(first.radius, second.radius) * math.exp(-z.log_length) if is_regular else -1.0
 
 
 @kernel
@@ -52,6 +37,24 @@ def radius_range(z: Four, system: System) -> tuple[float, float]:
     if bulges > 0:
         most = max(most, (1.0 + ratio) / abs(curvature))
     return least, most
+
+
+@kernel
+def opening_of(z: Four, system: System, held: Held) -> float:
+    """The smaller contact circle over ℓ; negative past a far pole, at a closed neck, or for an arc wound up."""
+    first, second = system.first, system.second
+    filling1 = half_filling_angle(held.first, first.radius, first.cos_slope, first.sin_slope)
+    filling2 = half_filling_angle(held.second, second.radius, second.cos_slope, second.sin_slope)
+    least = radius_range(z, system)[0] * math.exp(-z.log_length)
+    is_regular = (
+        least > _CLOSED_NECK
+        and abs(z.turn) < _MOST_TURN
+        and abs(z.log_radius) < _FARTHEST
+        and abs(z.log_length) < _FARTHEST
+        and min(filling1, filling2) >= 0.0
+        and max(filling1, filling2) < math.pi
+    )
+    return min(first.radius, second.radius) * math.exp(-z.log_length) if is_regular else -1.0
 
 
 @kernel

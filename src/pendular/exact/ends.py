@@ -29,6 +29,7 @@ from .follow import (
     follow,
     set_out,
     stance_at,
+    with_unstable,
 )
 from .guess import guess_at, rupture_at_suction, rupture_at_volume
 from .morph import Task, held_of
@@ -188,8 +189,9 @@ def _quick_end(task: Task, stops_at: int) -> tuple[Walk, bool]:
     if is_found and stops_at == BRANCH_ENDS and end.margin * start.margin < 0.0:
         end, is_found = _leap_to(PITCHFORK, start, curve)
         event = PITCHFORK
+    has_forked = event == FOLD and end.margin * start.margin < 0.0
     is_found = is_found and end.separation > start.separation and end.opening > 0.0
-    return Walk(event, end, curve, 0, 1.0), is_found
+    return Walk(event, with_unstable(end, 1 if has_forked else 0), curve, 0, 1.0), is_found
 
 
 @kernel

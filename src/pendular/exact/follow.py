@@ -30,7 +30,7 @@ _MOST_STEPS = 1000
 _MOST_CORRECTIONS = 6
 _LARGEST_CORRECTION = 0.4  # over the step
 _LEAST_COSINE = 0.95  # of the turn of the tangent in a step
-_SMALL_CORRECTION = 1e-11
+_SMALL_CORRECTION = 1e-9
 _CLOSED = 1e-6  # contact circle over ℓ at which it has closed
 _NEARLY_CLOSED = 1e-2  # where a curve that cannot be followed on ends all the same: the circle closes in a fold
 _FORK_STEP = 0.02  # of the slope in the middle, away from a pitchfork
@@ -207,7 +207,7 @@ def _arrived(start: Stance, low: float, high: float, target: float, curve: Curve
         if not largest(change) < 0.5 * size:
             break
         z, size = moved(z, 1.0, change), largest(change)
-    return _with_unstable(stance_at(z, curve), unstable)
+    return with_unstable(stance_at(z, curve), unstable)
 
 
 @kernel
@@ -230,7 +230,7 @@ def _change_to(target: float, z: Four, curve: Curve) -> Four:
 
 
 @kernel
-def _with_unstable(stance: Stance, unstable: int) -> Stance:
+def with_unstable(stance: Stance, unstable: int) -> Stance:
     """A stance whose stability is known from its neighbours: next to a fold its own is the sign of a rounding error."""
     return Stance(stance.z, stance.tangent, stance.separation, stance.slope, unstable, stance.margin, stance.opening)
 
@@ -309,7 +309,8 @@ def follow(stance: Stance, curve: Curve, target: float, stops_at: int, nodes: No
         if stretch.event != ARRIVED:
             count = _record(nodes, count, stretch.end.z)
             if stops_at == BRANCH_ENDS or (stops_at == FOLDS and stretch.event == FOLD):
-                return Walk(stretch.event, stretch.end, curve, count, going)
+                end = with_unstable(stretch.end, stance.unstable)
+                return Walk(stretch.event, end, curve, count, going)
             if _encloses(stretch.end, after, target):
                 found = _arrived(stance, stretch.reach, step, target, curve, after.unstable)
                 return Walk(ARRIVED, found, curve, _record(nodes, count, found.z), going)
