@@ -4,7 +4,7 @@ import math
 
 from .._jit import kernel
 from ._domain import mean_angle
-from ._record import CONTACT_ANGLE, SIZE_RATIO, VOLUME, Law
+from ._record import CONTACT_ANGLE, SIZE_RATIO, VOLUME, Law, Solids
 
 __all__ = ["LAW", "rupture_star"]
 
@@ -61,8 +61,7 @@ LAW = Law(
     valid={"volume_star": (0.0, 0.1), "contact_angle": (0.0, math.radians(40.0))},
     valid_text="the statement of the authors was not seen; measured: within 7 % for volume_star <= 0.1, angles up to "
     "40 degrees",
-    angle_rule="mean of two angles",
-    size_rule="does not depend on the sizes",
+    solids={"rupture": Solids("mean angle", "mean", "mean")},
     reference="G. Lian, C. Thornton, M. J. Adams, Journal of Colloid and Interface Science 161 (1993) 138-147",
     doi="",
     equations="",

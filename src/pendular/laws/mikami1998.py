@@ -8,7 +8,7 @@ import math
 
 from .._jit import kernel
 from ._domain import one_angle
-from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law
+from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law, Solids
 
 __all__ = ["LAW", "force_star", "rupture_star"]
 
@@ -135,8 +135,7 @@ LAW = Law(
     },
     valid_text="the statement of the authors was not seen; measured for volume_star from 1e-3 to 0.1, angles up to 40 "
     "degrees; the force is given for zero angle and two spheres only",
-    angle_rule="equal angles only; the force for zero angle only",
-    size_rule="two equal spheres of the Derjaguin radius; the rupture distance also for a sphere on a plane",
+    solids={"force": Solids("zero", "mean", "none"), "rupture": Solids("equal", "mean", "any")},
     reference="T. Mikami, H. Kamiya, M. Horio, Chemical Engineering Science 53 (1998) 1927-1940",
     doi="",
     equations="",

@@ -11,7 +11,7 @@ import math
 
 from .._jit import kernel
 from ._domain import one_angle
-from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law
+from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law, Solids
 
 __all__ = ["F1", "F2", "F3", "F4", "LAW", "force_star", "rupture_of_equal_spheres", "rupture_star"]
 
@@ -213,8 +213,7 @@ LAW = Law(
         "contact_angle": (0.0, math.radians(50.0)),
     },
     valid_text="volume_star < 0.1 and angles below 50 degrees as stated; the lower limit of the volume is measured",
-    angle_rule="equal angles only",
-    size_rule="force of two equal spheres of the Derjaguin radius; the rupture distance knows the ratio",
+    solids={"force": Solids("equal", "mean", "mean"), "rupture": Solids("equal", "any", "any")},
     reference="C. D. Willett, M. J. Adams, S. A. Johnson, J. P. K. Seville, Langmuir 16 (2000) 9396-9405",
     doi="10.1021/la000657y",
     equations="15, 16 and the fit of the attachment",
