@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..laws import Law
-from .domain import outside_range
+from ..laws.ranges import first_outside
 from .sample import ControlName, Errors, exact_sample, law_errors
 
 __all__ = ["ANGLES", "CONTROLS", "FRACTIONS", "RATIOS", "MeasuredErrors", "as_json", "measure", "measured_errors"]
@@ -94,7 +94,7 @@ def _leaves_range(law: Law, control_star: float, degrees: float, ratio: float) -
             "contact_angle": np.radians(degrees),
             "size_ratio": np.divide(1.0, ratio),
         }
-    return bool(outside_range(law, asked))
+    return first_outside(law.valid, asked) is not None
 
 
 def as_json(measured: dict[str, MeasuredErrors]) -> str:

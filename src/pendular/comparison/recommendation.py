@@ -166,13 +166,13 @@ def _judge(law: Law, sample: Sample) -> Ranked | str:
 def _reason(law: Law, sample: Sample, i: int, j: int, *, says_nothing: bool) -> str:
     place = {
         f"{sample.control}_star": sample.control_star[i],
-        "contact_angle": sample.contact_angle[i],
+        "contact_angle": (sample.contact_angle[i], sample.contact_angle[i]),
         "size_ratio": sample.size_ratio[i],
         "separation_star": sample.fraction[j] * sample.rupture_star[i],
     }
     where = (
-        f"at {variable_words(f'{sample.control}_star', place[f'{sample.control}_star'])}, "
-        f"{variable_words('contact_angle', place['contact_angle'])}, "
+        f"at {variable_words(f'{sample.control}_star', sample.control_star[i])}, "
+        f"{variable_words('contact_angle', sample.contact_angle[i])}, "
         f"{size_words(1.0 / sample.size_ratio[i])}, {sample.fraction[j]:.3g} D_c"
     )
-    return f"{why_silent(law, place)} ({where})" if says_nothing else f"has no bridge {where}"
+    return f"{why_silent(law, place, 'force')} ({where})" if says_nothing else f"has no bridge {where}"
