@@ -40,9 +40,9 @@ def rupture_star(
 
     Notes
     -----
-    **Validity.** Against the fold of exact bridges of equal spheres, V* = 1e-4 to 0.1: 5.6 to 7.4 % too small at zero
-    angle, within 3.3 % from 10 to 40 degrees. A sphere on a plane, V = 1e-4 to 0.05 of the cube of its radius: 4.9 to
-    7.3 % too large at zero angle.
+    **Validity.** Against the end of stability of exact bridges of equal spheres, V* = 1e-4 to 0.1: 5.6 to 7.4 % too
+    small at zero angle, within 2.4 % from 10 to 40 degrees. A sphere on a plane, V = 1e-4 to 0.05 of the cube of its
+    radius: 4.9 to 7.3 % too large at zero angle.
 
     References
     ----------
