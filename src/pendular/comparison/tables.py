@@ -44,7 +44,10 @@ def laws_table(laws: Iterable[Law]) -> RenderableType:
         table.add_row(
             law.name, law.control, ", ".join(given.replace("_", " ") for given in law.gives), *largest, law.valid_text
         )
-    note = f"errors: the largest between equal spheres on a grid in that range, of the force up to {UP_TO} of rupture"
+    note = (
+        "errors: the largest between equal spheres at the points of a grid in that range, its ends included, of the "
+        f"force from contact to {UP_TO} of rupture"
+    )
     return Group(table, "", note)
 
 
