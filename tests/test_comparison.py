@@ -188,6 +188,13 @@ def test_refusals_of_a_map(arguments, message):
         pl.error_map(name, fraction=fraction[0] if fraction else None)
 
 
+def test_a_map_is_empty_where_solids_hold_no_bridge_apart():
+    found = pl.error_map("deboer2008_volume", control_star=[1e-5], contact_angle=np.radians([10.0, 100.0]))
+    assert np.isnan(found.error).tolist() == [[False, True]]
+    dry = pl.error_map("pendular2026", control_star=[10.0], contact_angle=np.radians([10.0, 100.0]))
+    assert np.isnan(dry.error).tolist() == [[False, True]]
+
+
 # -- recommendations -------------------------------------------------------------------------------------------------
 
 RANGES = [
@@ -256,6 +263,10 @@ def test_a_law_without_a_bridge_in_the_range_is_out():
         ({"reduced_suction": 0.0}, "reduced_suction[0]: 0.0 is not > 0"),
         ({"reduced_suction": 1.0, "size_ratio": 0.5}, "size_ratio[0]: 0.5 is not >= 1"),
         ({"reduced_suction": 1.0, "up_to": 1.0}, "up_to: 1.0 is not in [0, 1)"),
+        (
+            {"reduced_suction": 1.0, "contact_angle": (0.0, 2.0)},
+            "reduced_suction: 1 holds no bridge apart at θ = 100.3°, equal spheres; narrow the ranges",
+        ),
     ],
 )
 def test_refusals_of_a_recommendation(options, message):
