@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import pendular
-from law_samples import EQUAL, assert_close, by_name, reach, sample
+from law_samples import EQUAL, assert_close, by_name, kappas, reach, sample
 from oracles.laws_mpmath import ORACLES
 from pendular.laws import arrays, laws, zhao2020
 from pendular.laws._registry import LAWS, force_star_of, rupture_star_of, rupture_work_star_of
@@ -32,6 +32,11 @@ def kernels(law):
     pair = [middle(law), 0.0, 0.0, *EQUAL]
     given = ((law.force_star, [0.0, *pair]), (law.rupture_star, pair), (law.rupture_work_star, pair))
     return [(kernel, arguments) for kernel, arguments in given if kernel]
+
+
+def quantity_of(law, kernel):
+    """Quantity that a kernel of a law gives."""
+    return next(quantity for quantity in law.gives if getattr(law, f"{quantity}_star") is kernel)
 
 
 # --- the registry -----------------------------------------------------------------------------------------------------
@@ -67,7 +72,7 @@ def test_law_has_an_oracle(law):
 def test_record_is_complete(law):
     texts = (law.title, law.valid_text, law.angle_rule, law.size_rule, law.reference, law.formula, law.provenance)
     assert all(texts)
-    assert law.gives
+    assert law.gives == tuple(law.solids)
     assert f"{law.control}_star" in law.valid
     assert max(map(len, law.formula.splitlines())) <= 120
 
@@ -188,12 +193,24 @@ def test_nan_outside_hard_limits(law):
 
 @pytest.mark.parametrize("law", LAWS, ids=by_name)
 def test_unequal_angles_follow_the_stated_rule(law):
-    is_one_angle = law.angle_rule.startswith("equal angles only")
+    means = {"mean angle": 0.25, "mean cosine": math.acos(0.5 * (math.cos(0.2) + math.cos(0.3)))}
     for kernel, (*first, _, _, kappa1, kappa2) in kernels(law):
-        assert math.isnan(kernel(*first, 0.2, 0.3, kappa1, kappa2)) == is_one_angle
-        if law.angle_rule.startswith("mean"):
-            mean = 0.25 if "cosine" not in law.angle_rule else math.acos(0.5 * (math.cos(0.2) + math.cos(0.3)))
+        rule = law.solids[quantity_of(law, kernel)].angles
+        assert math.isnan(kernel(*first, 0.2, 0.3, kappa1, kappa2)) == (rule in ("equal", "zero"))
+        assert math.isnan(kernel(*first, 0.2, 0.2, kappa1, kappa2)) == (rule == "zero")
+        if rule in means:
+            mean = means[rule]
             assert_close(kernel(*first, 0.2, 0.3, *EQUAL), kernel(*first, mean, mean, *EQUAL), 1e-14)
+
+
+@pytest.mark.parametrize("law", LAWS, ids=by_name)
+def test_unequal_sizes_follow_the_stated_rule(law):
+    for kernel, (*first, _, _) in kernels(law):
+        rule, equal = law.solids[quantity_of(law, kernel)], kernel(*first, *EQUAL)
+        assert math.isnan(kernel(*first, *kappas(math.inf))) == (rule.plane == "none")
+        for stated, size_ratio in ((rule.spheres, 3.0), (rule.plane, math.inf)):
+            if stated == "mean":
+                assert_close(kernel(*first, *kappas(size_ratio)), equal, 1e-14)
 
 
 @pytest.mark.parametrize("law", LAWS, ids=by_name)

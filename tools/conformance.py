@@ -29,7 +29,8 @@ COLUMNS = {
     "suction [Pa]": "gas pressure minus liquid pressure; negative for some bulging bridges",
     "volume [m^3]": "of the liquid",
     "force [N]": "on either solid, attraction positive",
-    "rupture_distance [m]": "separation of the fold at the control that is held, beyond which there is no bridge",
+    "rupture_distance [m]": "separation up to which the bridge is stable at the control that is held: the fold or, for "
+    "a volume between equal solids of 0.7 rad and more, the point before it where the liquid slides to one side",
 }
 
 HEAD = """\

@@ -9,7 +9,7 @@ from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
-from tests.oracles.young_laplace import EXACT, Bridge, Solid, arc_integrals, connect
+from tests.oracles.young_laplace import EXACT, Bridge, Solid, antisymmetric_mode_is_stable, arc_integrals, connect
 
 import pendular as pl
 
@@ -77,10 +77,10 @@ def cases() -> Iterator[tuple[Question, float]]:
                 yield question, float(f"{part * limit:.4g}")
 
 
-def by_library(function: Callable[..., pl.Bridge], question: Question, *separation: float) -> Any:
+def by_library(function: Callable[..., pl.Bridge], question: Question, *separation: float, **options: str) -> Any:
     """Ask the library."""
     pair, liquid = pl.Pair(question.radii, question.angles), pl.Liquid(surface_tension=TENSION)
-    return function(pair, *separation, **{question.control: question.held}, liquid=liquid)
+    return function(pair, *separation, **{question.control: question.held}, liquid=liquid, **options)
 
 
 def solve(question: Question, separation: float) -> Answer:
@@ -109,7 +109,7 @@ def solve(question: Question, separation: float) -> Answer:
         suction=found.suction * tension / reduced.unit,
         volume=_volume(found) * reduced.unit**3,
         force=2 * EXACT.pi * tension * found.force * reduced.unit,
-        rupture_distance=_greatest_gap(question) * reduced.unit,
+        rupture_distance=_end_of_stability(question) * reduced.unit,
     )
 
 
@@ -163,18 +163,42 @@ def _newton(missed: Callable[[list[Number]], list[Number]], start: list[Number],
 
 
 @cache
-def _greatest_gap(question: Question) -> Number:
-    """Gap at the fold: the vertex of a parabola through three neighbours at the same control."""
+def _end_of_stability(question: Question) -> Number:
+    """Gap at the fold, or where the liquid of given volume slides to one of two equal solids if that comes first."""
     reduced = _reduce(question)
-    reaches, suction = _coordinates(by_library(pl.rupture, question), question)
+    reaches, suction = _coordinates(by_library(pl.rupture, question, limit="fold"), question)
 
-    def gap(reach: Number) -> Number:
-        def bridge(unknown: Sequence[Number]) -> Bridge:
+    def bridge(reach: Number) -> Bridge:
+        def held(unknown: Sequence[Number]) -> Bridge:
             return connect(EXACT, reduced.solids, unknown[0], reach, reaches[1])
 
         if reduced.volume is None:
-            return _gap(bridge([reduced.suction]))
-        return _gap(bridge(_newton(lambda x: [_volume(bridge(x)) - reduced.volume], [suction], [reduced.volume])))
+            return held([reduced.suction])
+        return held(_newton(lambda x: [_volume(held(x)) - reduced.volume], [suction], [reduced.volume]))
 
-    below, middle, above = (gap(reaches[0] * (1 + i * _FOLD_STEP)) for i in (-1, 0, 1))
+    first, second = reduced.solids
+    if reduced.volume is not None and first == second and not antisymmetric_mode_is_stable(bridge(reaches[0])):
+        return _gap_of_sliding(question)
+    below, middle, above = (_gap(bridge(reaches[0] * (1 + i * _FOLD_STEP))) for i in (-1, 0, 1))
     return middle + (above - below) ** 2 / (8 * (2 * middle - above - below))
+
+
+def _gap_of_sliding(question: Question) -> Number:
+    """Gap where two equal solids stop being alike.
+
+    The force and the suction of a surface allow two contact circles on a sphere, at the roots of a quadratic in the
+    cotangent of the half-filling angle. Where they are one, a bridge that is not its mirror image branches off.
+    """
+    reduced = _reduce(question)
+    reaches, suction = _coordinates(by_library(pl.rupture, question), question)
+    sine = EXACT.sin(reduced.solids[0].angle)
+
+    def bridge(unknown: Sequence[Number]) -> Bridge:
+        return connect(EXACT, reduced.solids, unknown[1], unknown[0])
+
+    def missed(unknown: Sequence[Number]) -> list[Number]:
+        found = bridge(unknown)
+        cotangent = EXACT.cot(found.contacts[0].filling_angle)
+        return [2 * found.force * cotangent - sine, _volume(found) - reduced.volume]
+
+    return _gap(bridge(_newton(missed, [reaches[0], suction], [sine, reduced.volume])))

@@ -4,7 +4,7 @@ Everything on the page comes from the records of the laws and from their stored 
 tools.law_errors`` measures; the pictures are those of ``pendular compare``.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +24,13 @@ ANGLES = ("0", "20", "40")
 HELD = {"volume": "1pL", "suction": "20kPa"}
 SHORT = {"force": "F", "rupture": "D_c", "rupture_work": "W"}
 
+
+def in_words(numbers: Sequence[float]) -> str:
+    """Numbers in a row of text."""
+    *first, last = (f"{number:g}" for number in numbers)
+    return f"{', '.join(first)} and {last}"
+
+
 INTRODUCTION = f"""\
 # Laws
 
@@ -39,8 +46,9 @@ tools.law_errors` measures; a test compares both with the code. `pendular laws N
 
 ## All laws
 
-Largest errors between equal spheres on the grid of the tables below, inside the range of the law; of the force up to
-{FRACTIONS[-1]:g} of the rupture distance.
+Largest errors between equal spheres, inside the range of the law. They are those of a sample: the controls and angles
+of the tables below, the ends of the stated range among them, and for the force contact and {in_words(FRACTIONS[1:])} of
+the rupture distance. Between two points of the sample an error may be a little larger, beyond the last it grows.
 
 """
 
@@ -49,8 +57,9 @@ SIDE_BY_SIDE = f"""
 
 Two equal spheres of 50 µm with water between them, at a volume of 1 pL and at a suction of 20 kPa: the forces over the
 exact one, and their errors. A law of the other control is asked with the exact suction or volume of each state, so that
-only its own error is seen; a law of suction control is asked up to {pl.comparison.one_pair.UP_TO:g} of the rupture
-distance at the suction of the state.
+only its own error is seen; a law of suction control knows only states that their suction would hold. Errors are drawn,
+and the largest is sought, up to {pl.comparison.one_pair.UP_TO:g} of the rupture distance, and for a law of suction
+control up to that part of the rupture distance at the suction of the state.
 
 """
 

@@ -18,7 +18,7 @@ Floats = NDArray[np.float64]
 
 
 def bridge_by_dataset(problem: Problem) -> Bridge:
-    """Force at a separation by interpolation; NaN where the grid of the data base does not reach."""
+    """Force at a separation by interpolation; NaN, and no bridge, where the grid of the data base does not reach."""
     mean_radius, values, ratios, angles = _prepare(problem)
     separation = problem.rows[:, 0] * problem.length
     forces = np.empty(values.shape)
@@ -26,7 +26,7 @@ def bridge_by_dataset(problem: Problem) -> Bridge:
         pair = ratios[chosen][0], angles[chosen][0]
         gaps = (separation / mean_radius)[chosen]
         forces[chosen] = interpolate(data, control_name(problem), values[chosen], gaps, *pair)
-    return partial_bridge(problem, separation, forces, forces != 0.0)
+    return partial_bridge(problem, separation, forces, (forces != 0.0) & ~np.isnan(forces))
 
 
 def rupture_by_dataset(problem: Problem) -> Bridge:

@@ -1,19 +1,19 @@
 """A public question answered by a published closed form instead of the exact solver.
 
-A law belongs to one control, but a force at a separation does not depend on what is held: under the other control the
-exact solver turns the given suction into the volume of the bridge, or the volume into its suction, and the law is asked
-with that. A rupture distance does depend on it. The bridges of one suction end before any of them reaches the rupture
-distance of its volume; those of one volume pass the rupture distance of their suction and stay stable, but from there
-on no law at constant suction speaks of them.
+Of solids that a law does not cover it is not asked. Where its formula says nothing, or no constant suction holds the
+bridge of a law at suction, the force is NaN and there is no bridge. A rupture distance depends on what is held: the
+bridges of one suction end before any of them reaches the rupture distance of its volume.
 """
+
+from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ._warn import warn
-from .exact.equations import SUCTION
-from .laws import Law, force_star, laws, rupture_star
-from .laws.ranges import Outside, first_outside
+from .laws import Law, Quantity, force_star, laws, rupture_star
+from .laws.ranges import Outside, asked_ranges, asked_solids, first_outside, first_uncovered
+from .other_control import other_control_star
 from .problem import Problem, control_name, control_star, derjaguin_radius, partial_bridge, solve
 from .result import Bridge
 
@@ -22,35 +22,39 @@ Bools = NDArray[np.bool_]
 
 
 class RangeWarning(UserWarning):
-    """A law is asked outside the range that its authors state, or in which it was measured.
+    """A law is asked outside the range that its authors state, or in which it was measured, or says nothing.
 
     Attributes
     ----------
-    outside : Outside
-        The first variable that leaves its range, its value, and the two ends of the range.
+    outside : Outside or None
+        The first variable that leaves its range, its value, and the two ends of the range; None if none does.
     """
 
-    def __init__(self, message: str, outside: Outside) -> None:
+    def __init__(self, message: str, outside: Outside | None) -> None:
         super().__init__(message)
         self.outside = outside
 
 
 def bridge_by_law(problem: Problem, name: str) -> Bridge:
-    """Force at a separation by a law; what the law does not give is NaN."""
-    law = _law(name, "force")
-    solids = _solids(problem)
-    mean_radius = derjaguin_radius(problem)
+    """Force at a separation by a law; what the law does not give is NaN, and so is a force of which it says nothing."""
+    law, solids = _law(name, "force"), _solids(problem)
+    _refuse_uncovered(law, "force", solids)
     separation = problem.rows[:, 0] * problem.length
+    gap = separation / derjaguin_radius(problem)
     if law.control == control_name(problem):
         control = control_star(problem)
-        force = np.asarray(force_star(name, separation / mean_radius, control, *solids))
-        exists = force != 0.0
+        force = np.asarray(force_star(name, gap, control, *solids))
+        is_silent = np.isnan(force)
     else:
-        control, exists, failed = _other_control(problem)
-        by_law = np.asarray(force_star(name, separation / mean_radius, control, *solids))
-        force = np.where(exists | failed, by_law, 0.0)
-    _warn_outside(law, {"separation_star": separation / mean_radius, **_variables(law, control, solids)})
-    return partial_bridge(problem, separation, force, exists)
+        exact = solve(problem, "stable")
+        control = other_control_star(problem, exact)
+        by_law = np.asarray(force_star(name, gap, control, *solids))
+        is_known = np.ravel(exact.exists)
+        force = np.where(np.ravel(exact.force) != 0.0, by_law, 0.0)
+        is_silent = is_known & np.isnan(by_law)
+    asked = {"separation_star": gap, f"{law.control}_star": control}
+    _warn_outside(law, "force", asked, solids, is_silent)
+    return partial_bridge(problem, separation, force, (force != 0.0) & ~np.isnan(force))
 
 
 def rupture_by_law(problem: Problem, name: str) -> Bridge:
@@ -62,15 +66,17 @@ def rupture_by_law(problem: Problem, name: str) -> Bridge:
             f"{control_name(problem)}"
         )
     solids, control = _solids(problem), control_star(problem)
+    _refuse_uncovered(law, "rupture", solids)
     distance = np.asarray(rupture_star(name, control, *solids))
     force = np.full(distance.shape, np.nan)
     if "force" in law.gives:
         force = np.asarray(force_star(name, distance, control, *solids))
-    _warn_outside(law, _variables(law, control, solids))
-    return partial_bridge(problem, distance * derjaguin_radius(problem), force, ~np.isnan(distance))
+    is_silent = np.isnan(distance)
+    _warn_outside(law, "rupture", {f"{law.control}_star": control}, solids, is_silent)
+    return partial_bridge(problem, distance * derjaguin_radius(problem), force, ~is_silent)
 
 
-def _law(name: str, wanted: str) -> Law:
+def _law(name: str, wanted: Quantity) -> Law:
     """Return a law that gives what is wanted."""
     law = laws[name]
     if wanted not in law.gives:
@@ -86,42 +92,38 @@ def _solids(problem: Problem) -> tuple[Floats, ...]:
     return theta1, theta2, k1 * scale, k2 * scale
 
 
-def _other_control(problem: Problem) -> tuple[Floats, Bools, Bools]:
-    """Reduced volume of the exact bridges at given suction, or suction at given volume; which exist, which failed."""
-    exact = solve(problem, "stable")
-    if control_name(problem) == "suction":
-        control = np.ravel(exact.volume) / derjaguin_radius(problem) ** 3
-    else:
-        control = _suction_star(problem, exact)
-    return control, np.ravel(exact.exists), np.isnan(np.ravel(exact.force))
-
-
-def _suction_star(problem: Problem, exact: Bridge) -> Floats:
-    """Reduced suction of bridges of given volume; NaN where it would not hold them, since they are beyond its fold."""
-    reduced = np.ravel(exact.suction) * problem.length / problem.surface_tension
-    is_suction = reduced > 0.0
-    rows = problem.rows.copy()
-    rows[:, 1] = np.where(is_suction, reduced, 1.0)
-    drained = solve(problem._replace(rows=rows, held=SUCTION), "stable")
-    is_same = is_suction & np.isclose(np.ravel(drained.force), np.ravel(exact.force), rtol=1e-6, atol=0.0)
-    suction: Floats = np.where(is_same | ~is_suction, reduced, np.nan) * derjaguin_radius(problem) / problem.length
-    return suction
-
-
-def _variables(law: Law, control: Floats, solids: tuple[Floats, ...]) -> dict[str, Floats]:
+def _pairs(solids: tuple[Floats, ...]) -> tuple[Floats, Floats, Floats]:
+    """Contact angles and size ratio, one a row."""
     theta1, theta2, kappa1, kappa2 = solids
     with np.errstate(divide="ignore"):
-        ratio = np.maximum(kappa1, kappa2) / np.minimum(kappa1, kappa2)
-    angles = np.concatenate([theta1, theta2])
-    return {f"{law.control}_star": control, "contact_angle": angles, "size_ratio": ratio}
+        return theta1, theta2, np.maximum(kappa1, kappa2) / np.minimum(kappa1, kappa2)
 
 
-def _warn_outside(law: Law, variables: dict[str, Floats]) -> None:
-    """Warn once, naming the first variable that leaves the range of the law."""
-    outside = first_outside(law.valid, variables)
+def _refuse_uncovered(law: Law, quantity: Quantity, solids: tuple[Floats, ...]) -> None:
+    """Refuse solids of which the law does not speak."""
+    uncovered = first_uncovered(law, quantity, *_pairs(solids))
+    if uncovered is not None:
+        argument, value, rule = uncovered
+        raise ValueError(f"{argument}: {value} is not covered by {law.name!r}; its {quantity} is for {rule}")
+
+
+def _warn_outside(
+    law: Law, quantity: Quantity, asked: Mapping[str, Floats], solids: tuple[Floats, ...], is_silent: Bools
+) -> None:
+    """Warn once, naming the first variable that leaves the range of the law, and of how much it says nothing."""
+    variables = {**asked, **asked_solids(law, quantity, *_pairs(solids))}
+    outside = first_outside(asked_ranges(law), variables)
+    told = []
     if outside is not None:
-        told = (
-            f"{law.name}: {outside.name} {outside.value:.6g} is outside the range {outside.low:.6g} to "
-            f"{outside.high:.6g} of the law; {law.valid_text}"
-        )
-        warn(RangeWarning(told, outside))
+        variable, value, low, high = outside
+        told.append(f"{variable} {value:.6g} is outside the range {low:.6g} to {high:.6g} of the law")
+    if is_silent.any():
+        told.append(f"it says nothing of {np.count_nonzero(is_silent)} out of {is_silent.size} bridges")
+    if not told:
+        return
+    told.append(law.valid_text)
+    if np.any(variables["size_ratio"] != 1.0):
+        told.append(f"two sizes: {law.solids[quantity].size_words}")
+    if np.any(variables["angle_difference"] != 0.0):
+        told.append(f"two angles: {law.solids[quantity].angle_words}")
+    warn(RangeWarning(f"{law.name}: {'; '.join(told)}", outside))

@@ -27,7 +27,7 @@ def bridge_by_table(problem: Problem) -> Bridge:
         asked = (separation[chosen], *arguments)
         force[chosen], stiffness[chosen] = table.force(*asked), table.stiffness(*asked)
         other[chosen] = (table.volume if table.control == "suction" else table.suction)(*asked)
-    exists = force != 0.0
+    exists = (force != 0.0) & ~np.isnan(force)
     unit = 2.0 * np.pi * problem.surface_tension * derjaguin_radius(problem)
     answer = partial_bridge(problem, separation, force / unit, exists)
     name = "volume" if control_name(problem) == "suction" else "suction"
@@ -40,7 +40,7 @@ def rupture_by_table(problem: Problem) -> Bridge:
     distance = np.empty(len(problem.rows))
     for chosen, table, arguments in _tables(problem):
         distance[chosen] = table.rupture_distance(*arguments)
-    return partial_bridge(problem, distance, np.full(distance.shape, np.nan), np.ones(distance.shape, bool))
+    return partial_bridge(problem, distance, np.full(distance.shape, np.nan), ~np.isnan(distance))
 
 
 def _tables(problem: Problem) -> list[tuple[NDArray[np.bool_], Table, tuple[Floats, Floats, Floats, Floats]]]:

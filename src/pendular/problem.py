@@ -225,7 +225,10 @@ def control_si(problem: Problem) -> Floats:
 
 
 def partial_bridge(problem: Problem, separation: Floats, force_star: Any, exists: Bools) -> Bridge:
-    """Bridge in SI units with the few fields that a law or a table knows: force and separation at one control."""
+    """Bridge in SI units with the few fields that a law or a table knows: force and separation at one control.
+
+    They speak of stable bridges only.
+    """
     shape, gamma = problem.shape, problem.surface_tension
     known = exists & ~np.isnan(np.asarray(separation))
     fields: dict[str, Any] = {
@@ -234,6 +237,8 @@ def partial_bridge(problem: Problem, separation: Floats, force_star: Any, exists
         "force": 2.0 * np.pi * gamma * derjaguin_radius(problem) * np.asarray(force_star),
         "exists": known,
         "stable": known,
+        "unstable_directions": np.zeros(known.shape, int),
+        "sideways_stable": known,
     }
     empty = np.full(shape, np.nan)
     answer: dict[str, Any] = {field: plain(empty) for field, _, _ in FIELDS}

@@ -28,7 +28,7 @@ class ErrorMap(NamedTuple):
     fraction: float  # D/D_c at which the force is taken; NaN for the other two
     control_star: Floats  # (n,) H* or V*
     contact_angle: Floats  # (m,) [rad]
-    error: Floats  # (n, m); -1 where the law has no bridge, NaN where it says nothing
+    error: Floats  # (n, m); -1 where the law has no bridge, NaN where it says nothing or the solids hold none apart
 
     @property
     def in_words(self) -> str:

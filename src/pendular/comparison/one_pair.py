@@ -9,20 +9,21 @@ from .._check import whole_number
 from ..bridges import bridge, rupture
 from ..laws import Law, force_star, laws, rupture_star, rupture_work_star
 from ..liquid import Liquid
+from ..other_control import other_control_star
 from ..pair import Pair, check_pair
-from ..problem import Control, control_of
+from ..problem import Control, control_of, control_star, reduce
 from .domain import outside_range, why_silent
 from .sample import ControlName, rupture_work
 
 __all__ = ["MARKS", "UP_TO", "Comparison", "LawAnswer", "compare"]
 
 Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
 
 MARKS = (0.0, 0.5, 0.9)  # D/D_c at which errors are told
 UP_TO = 0.9  # D/D_c; nearer to rupture a relative error says how well the law meets the rupture distance
 
 _FEWEST = 5
-_SAME = 1e-6  # by how much two answers for one state may differ
 
 
 class LawAnswer(NamedTuple):
@@ -33,10 +34,11 @@ class LawAnswer(NamedTuple):
 
     name: str
     converted: bool  # a law of the other control, asked with the exact volume or suction of each state
-    force: Floats  # at the separations of the comparison, [N]
+    force: Floats  # at the separations of the comparison, [N]; what `bridge(method=...)` says there
     error: Floats
+    judged: Bools  # where the largest error is sought: up to 0.9 of the rupture distance under the law's control
     error_at_marks: tuple[float, ...]  # at contact, and at 0.5 and 0.9 of the rupture distance
-    largest_error: float  # without its sign, up to 0.9 of the rupture distance
+    largest_error: float  # without its sign, of the judged states
     answered_to: float  # D/D_c up to which the law says something, from contact on
     rupture_separation: float  # [m]; known only under the law's own control, as all that follows
     rupture_error: float
@@ -67,8 +69,8 @@ class _Reduced(NamedTuple):
     length: float  # R̄, [m]
     tension: float
     solids: tuple[float, float, float, float]  # θ1, θ2, κ1, κ2
-    controls: dict[str, Floats]  # H* and V* of every state
-    is_asked: NDArray[np.bool_]  # of laws of suction control
+    controls: dict[str, Floats]  # H* and V* of every state, NaN where a law of it is not asked
+    judged: dict[str, Bools]  # states near enough for the error of a law of that control
 
 
 def compare(
@@ -107,9 +109,10 @@ def compare(
     Notes
     -----
     **Validity.** A law of the other control is asked with the exact volume (or suction) of each state, so that its
-    own error is seen and nothing else. A law of suction control knows only states that are stable at constant
-    suction; it is asked up to 0.9 of the rupture distance at the suction of the state. The rupture distance of a law
-    belongs to the law's own control.
+    own error is seen and nothing else. A law of suction control knows only states that their suction would hold. The
+    largest error is that of the states from contact, included, to 0.9 of the rupture distance, included, and of a law
+    of suction control at constant volume to 0.9 of the rupture distance at the suction of the state; between two of
+    the states it may be a little larger. The rupture distance of a law belongs to the law's own control.
 
     Examples
     --------
@@ -122,7 +125,7 @@ def compare(
     count = whole_number("points", points, _FEWEST)
     control = control_of(suction, volume, humidity, liquid)
     exact = _exact(pair, control, liquid, count)
-    reduced = _reduce(exact, liquid)
+    reduced = _reduce(exact, control, liquid)
     found, refused = [], {}
     for law in laws.values():
         answer = _answer(law, exact, reduced)
@@ -152,32 +155,36 @@ def _exact(pair: Pair, control: Control, liquid: Liquid, count: int) -> Comparis
     return Comparison(pair, control.name, held[control.name], fraction, **known, rupture_work=work, laws=(), refused={})
 
 
-def _reduce(exact: Comparison, liquid: Liquid) -> _Reduced:
-    length, gamma = float(exact.pair.derjaguin_radius), liquid.surface_tension
+def _reduce(exact: Comparison, control: Control, liquid: Liquid) -> _Reduced:
+    problem = reduce(exact.pair, control, liquid, exact.separation)
+    length = float(exact.pair.derjaguin_radius)
     radii, angles = exact.pair.radii, exact.pair.contact_angles
-    is_asked = np.ones(exact.fraction.size, bool)
-    if exact.control == "volume":
-        held: dict[str, Any] = {"suction": exact.suction, "liquid": liquid}
-        stable, end = bridge(exact.pair, exact.separation, **held), rupture(exact.pair, **held)
-        is_asked = np.isclose(stable.force, exact.force, rtol=_SAME, atol=0.0)
-        is_asked &= exact.separation <= UP_TO * np.asarray(end.separation)
+    other: ControlName = "volume" if exact.control == "suction" else "suction"
+    near = exact.fraction <= UP_TO
     return _Reduced(
         length=length,
-        tension=gamma,
+        tension=liquid.surface_tension,
         solids=(float(angles[0]), float(angles[1]), length / float(radii[0]), length / float(radii[1])),
-        controls={"suction": exact.suction * length / gamma, "volume": exact.volume / length**3},
-        is_asked=is_asked,
+        controls={exact.control: control_star(problem), other: other_control_star(problem, exact)},
+        judged={"volume": near, "suction": near & _is_near_by_suction(exact, liquid)},
     )
 
 
+def _is_near_by_suction(exact: Comparison, liquid: Liquid) -> Bools:
+    """Whether states are well inside the branch that their suction holds."""
+    if exact.control == "suction":
+        return np.ones(exact.fraction.size, bool)
+    end = rupture(exact.pair, suction=exact.suction, liquid=liquid)
+    return np.asarray(exact.separation <= UP_TO * np.asarray(end.separation))
+
+
 def _answer(law: Law, exact: Comparison, reduced: _Reduced) -> LawAnswer:
-    is_own = law.control == exact.control
+    is_own, judged = law.control == exact.control, reduced.judged[law.control]
     control, silence = reduced.controls[law.control], np.full(exact.fraction.size, np.nan)
     force, distance, work = silence, np.nan, np.nan
     scale = 2.0 * np.pi * reduced.tension * reduced.length
     if "force" in law.gives:
         force = scale * force_star(law.name, exact.separation / reduced.length, control, *reduced.solids)
-        force = force if is_own or law.control == "volume" else np.where(reduced.is_asked, force, np.nan)
     if is_own and "rupture" in law.gives:
         distance = reduced.length * float(rupture_star(law.name, control[0], *reduced.solids))
     if is_own and "rupture_work" in law.gives:
@@ -189,8 +196,9 @@ def _answer(law: Law, exact: Comparison, reduced: _Reduced) -> LawAnswer:
         converted=not is_own,
         force=force,
         error=error,
+        judged=judged,
         error_at_marks=tuple(float(error[np.searchsorted(exact.fraction, mark)]) for mark in MARKS),
-        largest_error=_largest(error[exact.fraction <= UP_TO]),
+        largest_error=_largest(error[judged]),
         answered_to=_answered_to(exact.fraction, error),
         rupture_separation=distance,
         rupture_error=distance / float(exact.separation[-1]) - 1.0,
@@ -217,12 +225,9 @@ def _asked(law: Law, exact: Comparison, reduced: _Reduced) -> dict[str, ArrayLik
     theta1, theta2, kappa1, kappa2 = reduced.solids
     with np.errstate(divide="ignore"):
         ratio = np.divide(max(kappa1, kappa2), min(kappa1, kappa2))
-    near = exact.fraction <= UP_TO
-    if law.control == "suction":
-        near &= reduced.is_asked
     return {
-        f"{law.control}_star": reduced.controls[law.control][near],
-        "contact_angle": [theta1, theta2],
+        f"{law.control}_star": reduced.controls[law.control][reduced.judged[law.control]],
+        "contact_angle": (theta1, theta2),
         "size_ratio": ratio,
     }
 
@@ -231,7 +236,7 @@ def _why_silent(law: Law, exact: Comparison, reduced: _Reduced) -> str:
     if law.control != exact.control and "force" not in law.gives:
         given = " and ".join(law.gives).replace("_", " ")
         return f"its {given} belongs to constant {law.control}"
-    return why_silent(law, _asked(law, exact, reduced))
+    return why_silent(law, _asked(law, exact, reduced), law.gives[0])
 
 
 def _rank(answer: LawAnswer) -> tuple[bool, bool, float]:

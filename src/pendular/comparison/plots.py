@@ -33,7 +33,6 @@ _LEFT, _WIDTH = 0.115, 0.46
 _UPPER, _LOWER = (0.56, 0.33), (0.1, 0.4)  # bottom and height of the two panels
 _WIDEST = 1.1  # of the axis of separation, over the rupture distance
 _LINEAR = 0.5  # per cent, about up to which the axis of errors is linear
-_NEAREST = 0.95  # of the rupture distance; there a relative error begins to grow beyond all bounds
 _LIST, _COLUMN = (1.06, 1.16), 1.9  # beside a panel: where samples of the lines begin and end, where numbers end
 _STEP = 0.078, 0.064  # between the rows of the two lists, over the height of their panels
 
@@ -125,12 +124,11 @@ def _mark_ruptures(axes: Axes, comparison: Comparison, gap: Scale) -> None:
 
 def _draw_errors(axes: Axes, comparison: Comparison, gap: Scale) -> None:
     x = comparison.separation * gap.factor
-    near = comparison.fraction <= _NEAREST
     axes.set_yscale("asinh", linear_width=_LINEAR)
     axes.axhline(0.0, color=LIQUID, lw=5.0, zorder=1)
     for answer in comparison.laws:
-        _plot(axes, answer, x, np.where(near & (answer.error != NO_BRIDGE), 100.0 * answer.error, np.nan))
-    shown = np.concatenate([100.0 * answer.error[near] for answer in comparison.laws])
+        _plot(axes, answer, x, np.where(answer.judged & (answer.error != NO_BRIDGE), 100.0 * answer.error, np.nan))
+    shown = np.concatenate([100.0 * answer.error[answer.judged] for answer in comparison.laws])
     largest = np.nanmax(np.abs(shown), initial=_LINEAR)
     axes.set_ylim(-1.25 * min(largest, 100.0), 1.25 * largest)
     ticks = [sign * size for size in (1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0) for sign in (-1.0, 1.0)]
@@ -159,7 +157,7 @@ def _weight(answer: LawAnswer) -> float:
 def _list_forces(axes: Axes, comparison: Comparison, x: Floats) -> None:
     """Names of the lines in the order in which they end, tied to their ends, with the largest error of each."""
     drawn = [answer for answer in comparison.laws if not np.isnan(answer.largest_error)]
-    ends = {answer.name: _end(axes, answer, comparison.fraction, x) for answer in drawn}
+    ends = {answer.name: _end(axes, answer, x) for answer in drawn}
     drawn.sort(key=lambda answer: -ends[answer.name][1])
     heights = _spread([ends[answer.name][1] for answer in drawn])
     _head(axes, "largest error", "force, to 0.9 of rupture")
@@ -170,7 +168,7 @@ def _list_forces(axes: Axes, comparison: Comparison, x: Floats) -> None:
             tie: dict[str, Any] = {"color": style.colour, "lw": 0.5, "alpha": 0.6, "clip_on": False}
             axes.plot([end[0], _LIST[0]], [end[1], height], transform=axes.transAxes, **tie)
         sample: dict[str, Any] = {"color": style.colour, "ls": style.dashes, "lw": _weight(answer), "clip_on": False}
-        if comparison.fraction[_last(answer, comparison.fraction)] == 0.0:
+        if comparison.fraction[_last(answer)] == 0.0:
             sample |= {"marker": "D", "ms": 5.0, "mec": "white", "mew": 0.7, "ls": "none", "markevery": [1]}
         axes.plot(_LIST, [height, height], transform=axes.transAxes, **sample)
         _row(axes, height, answer, percent(answer.largest_error, signed=False))
@@ -215,16 +213,16 @@ def _row(axes: Axes, height: float, answer: LawAnswer, number: str) -> None:
     axes.text(_COLUMN, height, number, ha="right", **style)
 
 
-def _last(answer: LawAnswer, fraction: Floats) -> int:
+def _last(answer: LawAnswer) -> int:
     """Index of the last error that is drawn; of a law without any bridge, the last one it gives."""
-    known = ~np.isnan(answer.error) & (fraction <= _NEAREST)
+    known = ~np.isnan(answer.error) & answer.judged
     drawn = known & (answer.error != NO_BRIDGE)
     return int(np.flatnonzero(drawn if drawn.any() else known)[-1])
 
 
-def _end(axes: Axes, answer: LawAnswer, fraction: Floats, x: Floats) -> tuple[float, float]:
+def _end(axes: Axes, answer: LawAnswer, x: Floats) -> tuple[float, float]:
     """Where a line ends, in parts of the panel."""
-    last = _last(answer, fraction)
+    last = _last(answer)
     low, high = axes.get_ylim()
     value = np.clip(100.0 * answer.error[last], low, high)
     place = axes.transAxes.inverted().transform(axes.transData.transform((x[last], value)))

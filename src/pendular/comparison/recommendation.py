@@ -79,7 +79,7 @@ def recommend(
     Raises
     ------
     ValueError
-        For bad input.
+        For bad input, and for ranges with solids that hold no bridge apart.
 
     Notes
     -----
@@ -117,6 +117,7 @@ def recommend(
     )
     grid = np.meshgrid(empty.control_star, empty.contact_angle, empty.size_ratio, indexing="ij")
     sample = exact_sample(control, *grid, empty.fraction)
+    _refuse_dry(sample)
     ranked, disqualified = [], {}
     for law in (law for law in laws.values() if law.control == control):
         judged = _judge(law, sample)
@@ -125,6 +126,20 @@ def recommend(
         else:
             ranked.append(judged)
     return empty._replace(ranked=tuple(sorted(ranked, key=lambda law: law.largest_error)), disqualified=disqualified)
+
+
+def _refuse_dry(sample: Sample) -> None:
+    """Refuse ranges in which there is not everywhere an exact bridge to compare with."""
+    dry = np.flatnonzero(np.isnan(sample.rupture_star))
+    if dry.size:
+        raise ValueError(
+            f"reduced_{sample.control}: {sample.control_star[dry[0]]:.6g} holds no bridge apart at "
+            f"{_solids_in_words(sample, int(dry[0]))}; narrow the ranges"
+        )
+
+
+def _solids_in_words(sample: Sample, i: int) -> str:
+    return f"{variable_words('contact_angle', sample.contact_angle[i])}, {size_words(1.0 / sample.size_ratio[i])}"
 
 
 def _span(name: str, values: ArrayLike | None, low: float, brackets: str, *, allow_inf: bool = False) -> Floats:
@@ -166,13 +181,12 @@ def _judge(law: Law, sample: Sample) -> Ranked | str:
 def _reason(law: Law, sample: Sample, i: int, j: int, *, says_nothing: bool) -> str:
     place = {
         f"{sample.control}_star": sample.control_star[i],
-        "contact_angle": sample.contact_angle[i],
+        "contact_angle": (sample.contact_angle[i], sample.contact_angle[i]),
         "size_ratio": sample.size_ratio[i],
         "separation_star": sample.fraction[j] * sample.rupture_star[i],
     }
     where = (
-        f"at {variable_words(f'{sample.control}_star', place[f'{sample.control}_star'])}, "
-        f"{variable_words('contact_angle', place['contact_angle'])}, "
-        f"{size_words(1.0 / sample.size_ratio[i])}, {sample.fraction[j]:.3g} D_c"
+        f"at {variable_words(f'{sample.control}_star', sample.control_star[i])}, {_solids_in_words(sample, i)}, "
+        f"{sample.fraction[j]:.3g} D_c"
     )
-    return f"{why_silent(law, place)} ({where})" if says_nothing else f"has no bridge {where}"
+    return f"{why_silent(law, place, 'force')} ({where})" if says_nothing else f"has no bridge {where}"

@@ -25,7 +25,7 @@ _UNIT = Liquid(surface_tension=1.0)
 
 
 class Sample(NamedTuple):
-    """Exact bridges of n pairs, each with equal contact angles, at m separations."""
+    """Exact bridges of n pairs, each with equal contact angles, at m separations; NaN of pairs that hold none apart."""
 
     control: ControlName
     control_star: Floats  # (n,) H* or V*
@@ -92,12 +92,14 @@ def exact_sample(
     held: dict[str, Any] = {control: control_star, "liquid": _UNIT}
     end, contact = rupture(pair, **held), bridge(pair, 0.0, **held)
     wide = Pair(tuple(radius[:, None] for radius in radii), contact_angle[:, None])
-    gaps = np.asarray(end.separation)[:, None] * fraction
+    holds = np.asarray(end.exists) & np.asarray(contact.exists)
+    distance = np.where(holds, end.separation, np.nan)
+    gaps = np.where(holds, distance, 0.0)[:, None] * fraction
     states = bridge(wide, gaps, **(held | {control: control_star[:, None]}))
     return sample._replace(
-        rupture_star=np.asarray(end.separation),
+        rupture_star=distance,
         rupture_work_star=rupture_work(control, contact, end) / (2.0 * np.pi),
-        force_star=np.asarray(states.force) / (2.0 * np.pi),
+        force_star=np.where(holds[:, None], states.force, np.nan) / (2.0 * np.pi),
     )
 
 

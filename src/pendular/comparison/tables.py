@@ -44,7 +44,10 @@ def laws_table(laws: Iterable[Law]) -> RenderableType:
         table.add_row(
             law.name, law.control, ", ".join(given.replace("_", " ") for given in law.gives), *largest, law.valid_text
         )
-    note = f"errors: the largest between equal spheres on a grid in that range, of the force up to {UP_TO} of rupture"
+    note = (
+        "errors: the largest between equal spheres at the points of a grid in that range, its ends included, of the "
+        f"force from contact to {UP_TO} of rupture"
+    )
     return Group(table, "", note)
 
 
@@ -129,8 +132,9 @@ def comparison_table(comparison: Comparison) -> RenderableType:
 def _remarks(answer: LawAnswer, comparison: Comparison) -> str:
     other = "volume" if comparison.control == "suction" else "suction"
     remarks = [f"by exact {other}"] if answer.converted else []
-    if 0.0 < answer.answered_to < UP_TO:
-        remarks.append(f"to {answer.answered_to:.2f} D_c")
+    judged = comparison.fraction[answer.judged & ~np.isnan(answer.error)]
+    if judged.size and 0.0 < judged[-1] < UP_TO:
+        remarks.append(f"to {judged[-1]:.2f} D_c")
     if answer.outside:
         remarks.append(answer.outside)
     return "; ".join(remarks)

@@ -13,8 +13,10 @@ _VARIABLES = {
     "volume_star": "V*",
     "contact_angle": "θ",
     "size_ratio": "size ratio",
+    "angle_difference": "difference of the angles",
     "separation_star": "D*",
 }
+_ANGLES = ("contact_angle", "angle_difference")
 
 
 def percent(error: float, *, signed: bool = True) -> str:
@@ -114,8 +116,8 @@ def limit_words(name: str, low: float, high: float) -> str:
 
 
 def _degrees(name: str, value: float) -> float:
-    return math.degrees(value) if name == "contact_angle" else value
+    return math.degrees(value) if name in _ANGLES else value
 
 
 def _unit(name: str) -> str:
-    return "°" if name == "contact_angle" else ""
+    return "°" if name in _ANGLES else ""

@@ -7,11 +7,11 @@ import sys
 from collections.abc import Iterator
 from types import ModuleType
 
-from ._record import Law, Variable
+from ._record import Law, Quantity, Solids, Variable
 from ._registry import LAWS
 from .arrays import force_star, rupture_star, rupture_work_star
 
-__all__ = ["Law", "Variable", "force_star", "laws", "rupture_star", "rupture_work_star"]
+__all__ = ["Law", "Quantity", "Solids", "Variable", "force_star", "laws", "rupture_star", "rupture_work_star"]
 
 laws: dict[str, Law] = {law.name: law for law in LAWS}
 keys, values, items = laws.keys, laws.values, laws.items

@@ -5,9 +5,32 @@ from dataclasses import dataclass, replace
 from math import inf, pi
 from typing import Literal
 
-__all__ = ["CONTACT_ANGLE", "GAP", "SEPARATION", "SIZE_RATIO", "SUCTION", "VOLUME", "Law", "Variable"]
+__all__ = [
+    "ANY_SOLIDS",
+    "CONTACT_ANGLE",
+    "GAP",
+    "SEPARATION",
+    "SIZE_RATIO",
+    "SUCTION",
+    "VOLUME",
+    "Law",
+    "Quantity",
+    "Solids",
+    "Variable",
+]
 
 Kernel = Callable[..., float]
+Quantity = Literal["force", "rupture", "rupture_work"]
+
+_ANGLE_WORDS = {
+    "any": "any two angles",
+    "mean angle": "mean of two angles",
+    "mean cosine": "mean cosine of two angles",
+    "equal": "equal angles only",
+    "zero": "zero angles only",
+}
+_SPHERE_WORDS = {"any": "any two spheres", "mean": "two equal spheres of the Derjaguin radius"}
+_PLANE_WORDS = {"any": ", a sphere on a plane as it is", "mean": "", "none": ", no plane"}
 
 
 @dataclass(frozen=True)
@@ -44,6 +67,40 @@ CONTACT_ANGLE = Variable("contact_angle", "rad", 0.0, pi / 2, "contact angle on 
 SIZE_RATIO = Variable("size_ratio", "-", 1.0, inf, "larger over smaller radius, infinite for a plane")
 
 
+@dataclass(frozen=True)
+class Solids:
+    """Of which two solids a law speaks, and what it makes of two that differ.
+
+    A law is refused for solids of which it does not speak, and tells of a mean that it takes.
+
+    Parameters
+    ----------
+    angles : {"any", "mean angle", "mean cosine", "equal", "zero"}
+        Two contact angles: both as they are, one mean of them, or none that differ, or that differ from zero.
+    spheres : {"any", "mean"}
+        Two spheres: both as they are, or as two equal ones of the Derjaguin radius.
+    plane : {"any", "mean", "none"}
+        A sphere and a plane: as they are, as two equal spheres, or not at all.
+    """
+
+    angles: Literal["any", "mean angle", "mean cosine", "equal", "zero"]
+    spheres: Literal["any", "mean"]
+    plane: Literal["any", "mean", "none"]
+
+    @property
+    def angle_words(self) -> str:
+        """What is made of two angles."""
+        return _ANGLE_WORDS[self.angles]
+
+    @property
+    def size_words(self) -> str:
+        """What is made of two sizes."""
+        return _SPHERE_WORDS[self.spheres] + _PLANE_WORDS[self.plane]
+
+
+ANY_SOLIDS = Solids("any", "any", "any")
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Law:
     r"""A published closed form for the force, the rupture distance or the rupture work of a capillary bridge.
@@ -67,8 +124,8 @@ class Law:
         range for which the law was compared with exact bridges.
     valid_text : str
         The same for people, with joint conditions that a box cannot express; it tells which of the two the range is.
-    angle_rule, size_rule : str
-        What the law does with two different contact angles, and with two different solids.
+    solids : mapping of str to Solids
+        Of which two solids each of the quantities speaks that the law gives.
     reference, doi, equations : str
         Source, and the numbers of its equations that are used.
     formula : str
@@ -102,8 +159,7 @@ class Law:
     variables: tuple[Variable, ...]
     valid: Mapping[str, tuple[float, float]]
     valid_text: str
-    angle_rule: str
-    size_rule: str
+    solids: Mapping[Quantity, Solids]
     reference: str
     doi: str
     equations: str
@@ -115,7 +171,29 @@ class Law:
     rupture_work_star: Kernel | None = None
 
     @property
-    def gives(self) -> tuple[str, ...]:
+    def gives(self) -> tuple[Quantity, ...]:
         """The quantities that the law predicts, out of "force", "rupture" and "rupture_work"."""
-        kernels = {"force": self.force_star, "rupture": self.rupture_star, "rupture_work": self.rupture_work_star}
+        kernels: dict[Quantity, Kernel | None] = {
+            "force": self.force_star,
+            "rupture": self.rupture_star,
+            "rupture_work": self.rupture_work_star,
+        }
         return tuple(quantity for quantity, kernel in kernels.items() if kernel is not None)
+
+    @property
+    def angle_rule(self) -> str:
+        """What the law does with two different contact angles, in words."""
+        return _joined({quantity: solids.angle_words for quantity, solids in self.solids.items()})
+
+    @property
+    def size_rule(self) -> str:
+        """What the law does with two different solids, in words."""
+        return _joined({quantity: solids.size_words for quantity, solids in self.solids.items()})
+
+
+def _joined(rules: Mapping[Quantity, str]) -> str:
+    """Rule of a law, told once where it is that of all its quantities."""
+    words = list(dict.fromkeys(rules.values()))
+    if len(words) == 1:
+        return words[0]
+    return "; ".join(f"{quantity.replace('_', ' ')}: {rule}" for quantity, rule in rules.items())

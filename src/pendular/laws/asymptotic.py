@@ -16,7 +16,7 @@ and force are exact, so the two sides, which share the force, need not be alike.
 import math
 
 from .._jit import kernel
-from ._record import CONTACT_ANGLE, SEPARATION, SIZE_RATIO, SUCTION, Law
+from ._record import ANY_SOLIDS, CONTACT_ANGLE, SEPARATION, SIZE_RATIO, SUCTION, Law
 from .contact_circle import contact_at, force_rate, wetted_arc_of
 
 __all__ = ["LAW", "force_star", "gap", "moments", "rupture_star"]
@@ -274,8 +274,7 @@ LAW = Law(
         "contact_angle": (0.0, math.radians(75.0)),
     },
     valid_text="suction_star >= 10, angles up to 75 degrees",
-    angle_rule="any two angles",
-    size_rule="any two solids, a plane included",
+    solids={"force": ANY_SOLIDS, "rupture": ANY_SOLIDS},
     reference="derived for this library",
     doi="",
     equations="",

@@ -6,7 +6,7 @@ It is the fold of the theory in `asymptotic`, to the first correction that knows
 import math
 
 from .._jit import kernel
-from ._record import CONTACT_ANGLE, SIZE_RATIO, SUCTION, Law
+from ._record import ANY_SOLIDS, CONTACT_ANGLE, SIZE_RATIO, SUCTION, Law
 from .asymptotic import moments
 
 __all__ = ["LAW", "beta_exact", "rupture_star"]
@@ -112,8 +112,7 @@ LAW = Law(
     variables=(SUCTION, CONTACT_ANGLE, SIZE_RATIO),
     valid={"suction_star": (30.0, math.inf), "contact_angle": (0.0, math.radians(40.0))},
     valid_text="suction_star >= 30, angles up to 40 degrees; larger angles need larger suction",
-    angle_rule="any two angles",
-    size_rule="any two solids, a plane included",
+    solids={"rupture": ANY_SOLIDS},
     reference="derived for this library",
     doi="",
     equations="",

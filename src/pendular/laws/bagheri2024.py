@@ -6,7 +6,7 @@ In this file :math:`V` is the volume and :math:`D` the gap, reduced by the Derja
 import math
 
 from .._jit import kernel
-from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law
+from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law, Solids
 from .lian_seville2016 import rupture_star
 
 __all__ = ["LAW", "force_star", "rupture_star"]
@@ -103,8 +103,7 @@ LAW = Law(
     },
     valid_text="the statement of the authors was not seen; measured for volume_star from 1e-5 to 0.1, angles up to 40 "
     "degrees; at 40 degrees to 0.3 of the rupture distance",
-    angle_rule="equal angles only",
-    size_rule="two equal spheres of the Derjaguin radius",
+    solids={"force": Solids("equal", "mean", "mean"), "rupture": Solids("equal", "mean", "mean")},
     reference="M. Bagheri, S. Roy, T. Pöschel, Computational Particle Mechanics 11 (2024) 2179, arXiv:2310.11485",
     doi="10.1007/s40571-024-00772-5",
     equations="",

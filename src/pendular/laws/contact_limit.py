@@ -4,7 +4,7 @@ import math
 
 from .._jit import kernel
 from ._domain import mean_cosine
-from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, SUCTION, Law
+from ._record import ANY_SOLIDS, CONTACT_ANGLE, GAP, SIZE_RATIO, SUCTION, Law
 
 __all__ = ["LAW", "force_star"]
 
@@ -72,8 +72,7 @@ LAW = Law(
         "contact_angle": (0.0, math.radians(40.0)),
     },
     valid_text="a limit, at contact only; measured: within 0.8 % for suction_star >= 1e4, angles up to 40 degrees",
-    angle_rule="any two angles",
-    size_rule="any two solids, a plane included",
+    solids={"force": ANY_SOLIDS},
     reference="the limit of the exact solution",
     doi="",
     equations="",

@@ -8,7 +8,7 @@ import math
 
 from .._jit import kernel
 from ._domain import mean_cosine
-from ._record import CONTACT_ANGLE, SIZE_RATIO, SUCTION, Law
+from ._record import ANY_SOLIDS, CONTACT_ANGLE, SIZE_RATIO, SUCTION, Law
 
 __all__ = ["LAW", "rupture_work_star"]
 
@@ -61,8 +61,7 @@ LAW = Law(
     variables=(SUCTION, CONTACT_ANGLE, SIZE_RATIO),
     valid={"suction_star": (1e4, math.inf), "contact_angle": (0.0, math.radians(40.0))},
     valid_text="a leading order; measured: within 3 % for suction_star >= 1e4, angles up to 40 degrees",
-    angle_rule="any two angles",
-    size_rule="any two solids, a plane included",
+    solids={"rupture_work": ANY_SOLIDS},
     reference="P. C. T. de Boer, M. P. de Boer, Langmuir 24 (2008) 160-169",
     doi="",
     equations="",

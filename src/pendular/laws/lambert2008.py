@@ -9,7 +9,7 @@ import math
 
 from .._jit import kernel
 from ._domain import mean_cosine
-from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law
+from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law, Solids
 
 __all__ = ["LAW", "force_star", "wetted_radius_squared"]
 
@@ -118,8 +118,7 @@ LAW = Law(
     },
     valid_text="the statement of the authors was not seen; measured for volume_star <= 0.1, angles up to 40 degrees, "
     "rough everywhere; no rupture distance, the force is given at every separation",
-    angle_rule="mean cosine of two angles",
-    size_rule="two equal spheres of the Derjaguin radius",
+    solids={"force": Solids("mean cosine", "mean", "mean")},
     reference="P. Lambert, A. Chau, A. Delchambre, S. Régnier, Langmuir 24 (2008) 3157-3163",
     doi="10.1021/la7036444",
     equations="65",

@@ -4,7 +4,7 @@ import math
 
 from .._jit import kernel
 from ._domain import mean_angle
-from ._record import CONTACT_ANGLE, SIZE_RATIO, VOLUME, Law
+from ._record import CONTACT_ANGLE, SIZE_RATIO, VOLUME, Law, Solids
 
 __all__ = ["LAW", "rupture_star"]
 
@@ -33,9 +33,9 @@ def rupture_star(
 
     Notes
     -----
-    **Validity.** Against the fold of exact bridges of equal spheres, V* = 1e-4 to 0.1: 0.5 to 4.9 % too small at zero
-    angle, -6.8 to +3.3 % up to 40 degrees. A sphere on a plane at zero angle: within 3.8 % up to V = 0.01 of the cube
-    of its radius.
+    **Validity.** Against the end of stability of exact bridges of equal spheres, V* = 1e-4 to 0.1: 0.5 to 4.9 % too
+    small at zero angle, -4.3 to +3.3 % up to 40 degrees. A sphere on a plane at zero angle: within 3.8 % up to V =
+    0.01 of the cube of its radius.
 
     References
     ----------
@@ -59,10 +59,9 @@ LAW = Law(
     control="volume",
     variables=(VOLUME, CONTACT_ANGLE, SIZE_RATIO),
     valid={"volume_star": (0.0, 0.1), "contact_angle": (0.0, math.radians(40.0))},
-    valid_text="the statement of the authors was not seen; measured: within 7 % for volume_star <= 0.1, angles up to "
+    valid_text="the statement of the authors was not seen; measured: within 5 % for volume_star <= 0.1, angles up to "
     "40 degrees",
-    angle_rule="mean of two angles",
-    size_rule="does not depend on the sizes",
+    solids={"rupture": Solids("mean angle", "mean", "mean")},
     reference="G. Lian, C. Thornton, M. J. Adams, Journal of Colloid and Interface Science 161 (1993) 138-147",
     doi="",
     equations="",

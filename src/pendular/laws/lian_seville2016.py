@@ -8,7 +8,7 @@ import math
 
 from .._jit import kernel
 from ._domain import one_angle
-from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law
+from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law, Solids
 from .willett2000 import rupture_of_equal_spheres
 
 __all__ = ["LAW", "force_star", "half_filling_angle_at_contact", "rupture_star"]
@@ -165,8 +165,7 @@ LAW = Law(
     },
     valid_text="the statement of the authors was not seen; measured for volume_star from 1e-5 to 0.05, angles up to 20 "
     "degrees",
-    angle_rule="equal angles only",
-    size_rule="two equal spheres of the Derjaguin radius",
+    solids={"force": Solids("equal", "mean", "mean"), "rupture": Solids("equal", "mean", "mean")},
     reference="G. Lian, J. Seville, Advances in Colloid and Interface Science 227 (2016)",
     doi="10.1016/j.cis.2015.11.003",
     equations="",

@@ -8,7 +8,7 @@ import math
 
 from .._jit import kernel
 from ._domain import one_angle
-from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law
+from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law, Solids
 
 __all__ = ["LAW", "force_star", "rupture_star"]
 
@@ -40,9 +40,9 @@ def rupture_star(
 
     Notes
     -----
-    **Validity.** Against the fold of exact bridges of equal spheres, V* = 1e-4 to 0.1: 5.6 to 7.4 % too small at zero
-    angle, within 3.3 % from 10 to 40 degrees. A sphere on a plane, V = 1e-4 to 0.05 of the cube of its radius: 4.9 to
-    7.3 % too large at zero angle.
+    **Validity.** Against the end of stability of exact bridges of equal spheres, V* = 1e-4 to 0.1: 5.6 to 7.4 % too
+    small at zero angle, within 2.4 % from 10 to 40 degrees. A sphere on a plane, V = 1e-4 to 0.05 of the cube of its
+    radius: 4.9 to 7.3 % too large at zero angle.
 
     References
     ----------
@@ -135,8 +135,7 @@ LAW = Law(
     },
     valid_text="the statement of the authors was not seen; measured for volume_star from 1e-3 to 0.1, angles up to 40 "
     "degrees; the force is given for zero angle and two spheres only",
-    angle_rule="equal angles only; the force for zero angle only",
-    size_rule="two equal spheres of the Derjaguin radius; the rupture distance also for a sphere on a plane",
+    solids={"force": Solids("zero", "mean", "none"), "rupture": Solids("equal", "mean", "any")},
     reference="T. Mikami, H. Kamiya, M. Horio, Chemical Engineering Science 53 (1998) 1927-1940",
     doi="",
     equations="",

@@ -44,7 +44,7 @@ The map of its error is ``docs/images/pendular2026_error.png``.
 import math
 
 from .._jit import kernel
-from ._record import CONTACT_ANGLE, SEPARATION, SIZE_RATIO, SUCTION, Law
+from ._record import ANY_SOLIDS, CONTACT_ANGLE, SEPARATION, SIZE_RATIO, SUCTION, Law
 from .asymptotic import moments
 
 __all__ = ["COEFFICIENTS", "LAW", "evaluate", "force_star", "rupture_star"]
@@ -259,8 +259,7 @@ LAW = Law(
         "contact_angle": (0.0, math.radians(80.0)),
     },
     valid_text="equal spheres and angles at any suction; any two solids for suction_star >= 100",
-    angle_rule="any two angles",
-    size_rule="any two solids, a plane included",
+    solids={"force": ANY_SOLIDS, "rupture": ANY_SOLIDS},
     reference="derived for this library",
     doi="",
     equations="",

@@ -7,7 +7,7 @@ import math
 
 from .._jit import kernel
 from ._domain import mean_angle
-from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law
+from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law, Solids
 from .lambert2008 import wetted_radius_squared
 
 __all__ = ["LAW", "force_star"]
@@ -82,8 +82,7 @@ LAW = Law(
     },
     valid_text="the statement of the authors was not seen; measured for volume_star <= 0.1, angles up to 40 degrees, "
     "rough everywhere; no rupture distance, the force is given at every separation",
-    angle_rule="mean of two angles",
-    size_rule="two equal spheres of the Derjaguin radius",
+    solids={"force": Solids("mean angle", "mean", "mean")},
     reference="Y. I. Rabinovich, M. S. Esayanur, B. M. Moudgil, Langmuir 21 (2005) 10992-10997",
     doi="",
     equations="19, 20, A3",

@@ -8,7 +8,7 @@ import math
 
 from .._jit import kernel
 from ._domain import one_angle
-from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law
+from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law, Solids
 
 __all__ = ["LAW", "force_star"]
 
@@ -90,8 +90,7 @@ LAW = Law(
     },
     valid_text="the statement of the authors was not seen; measured for volume_star from 1e-3 to 0.1, angles up to 20 "
     "degrees; no rupture distance, the force is given at every separation",
-    angle_rule="equal angles only",
-    size_rule="two spheres, no plane",
+    solids={"force": Solids("equal", "any", "none")},
     reference="F. Soulié, F. Cherblanc, M. S. El Youssoufi, C. Saix, International Journal for Numerical and "
     "Analytical Methods in Geomechanics 30 (2006) 213",
     doi="10.1002/nag.476",

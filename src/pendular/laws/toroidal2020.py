@@ -10,7 +10,7 @@ With a circle as meridian and :math:`P = |X_c|/Y_c`, :math:`Q = Y_0/Y_c` the geo
 import math
 
 from .._jit import kernel
-from ._record import CONTACT_ANGLE, SEPARATION, SIZE_RATIO, SUCTION, Law
+from ._record import CONTACT_ANGLE, SEPARATION, SIZE_RATIO, SUCTION, Law, Solids
 
 __all__ = [
     "LAW",
@@ -451,8 +451,7 @@ LAW = Law(
         "size_ratio": (1.0, 128.0),
     },
     valid_text="suction_star >= 1e4, angles up to 40 degrees",
-    angle_rule="equal angles only",
-    size_rule="two equal spheres of the Derjaguin radius",
+    solids={"force": Solids("equal", "mean", "mean"), "rupture": Solids("equal", "mean", "mean")},
     reference="C.-F. Zhao, N. P. Kruyt, O. Millet, Powder Technology 360 (2020) 622-634",
     doi="",
     equations="17-28, 34-36",

@@ -8,7 +8,7 @@ import math
 
 from .._jit import kernel
 from ._domain import one_angle
-from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law
+from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law, Solids
 
 __all__ = ["LAW", "force_star"]
 
@@ -99,8 +99,7 @@ LAW = Law(
     },
     valid_text="the statement of the authors was not seen; measured at contact for volume_star from 1e-4 to 0.1, "
     "angles up to 40 degrees; with a gap the force is far too large; no rupture distance",
-    angle_rule="equal angles only",
-    size_rule="two equal spheres of the Derjaguin radius",
+    solids={"force": Solids("equal", "mean", "mean")},
     reference="T. Weigert, S. Ripperger, Particle & Particle Systems Characterization 16 (1999) 238-242",
     doi="10.1002/(SICI)1521-4117(199910)16:5<238::AID-PPSC238>3.0.CO;2-E",
     equations="5, 6, 15-17, 21, 22",

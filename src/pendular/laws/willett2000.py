@@ -11,7 +11,7 @@ import math
 
 from .._jit import kernel
 from ._domain import one_angle
-from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law
+from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law, Solids
 
 __all__ = ["F1", "F2", "F3", "F4", "LAW", "force_star", "rupture_of_equal_spheres", "rupture_star"]
 
@@ -114,8 +114,8 @@ def rupture_star(
 
     Notes
     -----
-    **Validity.** Against the fold of exact bridges: equal spheres within 0.5 % at zero angle and 4.0 % up to 40 degrees
-    for V* = 1e-4 to 0.1; unequal spheres and a plane within 2.3 % at zero angle for V* = 1e-3 and 1e-2.
+    **Validity.** Against the end of stability of exact bridges: equal spheres within 0.5 % at zero angle and 4.0 % up
+    to 40 degrees for V* = 1e-4 to 0.1; unequal spheres and a plane within 2.3 % at zero angle for V* = 1e-3 and 1e-2.
 
     References
     ----------
@@ -170,8 +170,8 @@ def force_star(
     Notes
     -----
     **Validity.** Stated for V* < 0.1 and angles below 50 degrees. Against exact bridges of equal spheres, angles up to
-    40 degrees: for V* = 1e-3 to 0.1 within 2.9 % up to 0.6 of the rupture distance and 7.7 % up to 0.9 of it; at V* =
-    1e-5 up to 86 % too large. Unequal spheres and a plane, zero angle, V* = 1e-3 and 1e-2: within 3.0 % for gaps up to
+    40 degrees: for V* = 1e-3 to 0.1 within 2.9 % up to 0.6 of the rupture distance and 6.4 % up to 0.9 of it; at V* =
+    1e-5 up to 83 % too large. Unequal spheres and a plane, zero angle, V* = 1e-3 and 1e-2: within 3.0 % for gaps up to
     0.4 V^(1/3).
 
     References
@@ -213,8 +213,7 @@ LAW = Law(
         "contact_angle": (0.0, math.radians(50.0)),
     },
     valid_text="volume_star < 0.1 and angles below 50 degrees as stated; the lower limit of the volume is measured",
-    angle_rule="equal angles only",
-    size_rule="force of two equal spheres of the Derjaguin radius; the rupture distance knows the ratio",
+    solids={"force": Solids("equal", "mean", "mean"), "rupture": Solids("equal", "any", "any")},
     reference="C. D. Willett, M. J. Adams, S. A. Johnson, J. P. K. Seville, Langmuir 16 (2000) 9396-9405",
     doi="10.1021/la000657y",
     equations="15, 16 and the fit of the attachment",

@@ -7,7 +7,7 @@ as in the article, which takes half the gap.
 import math
 
 from .._jit import kernel
-from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law
+from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law, Solids
 from .willett2000 import rupture_star
 
 __all__ = ["LAW", "force_star", "rupture_star"]
@@ -82,8 +82,7 @@ LAW = Law(
         "contact_angle": (0.0, math.radians(50.0)),
     },
     valid_text="volume_star < 0.1 and angles below 50 degrees as stated for the full fit; rough everywhere",
-    angle_rule="equal angles only",
-    size_rule="force of two equal spheres of the Derjaguin radius; the rupture distance knows the ratio",
+    solids={"force": Solids("equal", "mean", "mean"), "rupture": Solids("equal", "any", "any")},
     reference="C. D. Willett, M. J. Adams, S. A. Johnson, J. P. K. Seville, Langmuir 16 (2000) 9396-9405",
     doi="10.1021/la000657y",
     equations="12, 13, 15, 16",

@@ -8,7 +8,7 @@ so the half gap of the article and the whole gap of the kernels agree there.
 import math
 
 from .._jit import kernel
-from ._record import CONTACT_ANGLE, SEPARATION, SIZE_RATIO, SUCTION, Law
+from ._record import CONTACT_ANGLE, SEPARATION, SIZE_RATIO, SUCTION, Law, Solids
 
 __all__ = ["LAW", "force_star", "force_star_given_rupture", "neck_radius_at_contact", "rupture_star"]
 
@@ -236,8 +236,7 @@ LAW = Law(
         "size_ratio": (1.0, 128.0),
     },
     valid_text="fitted at 0, 20 and 40 degrees for suction_star >= 1; unequal spheres for suction_star >= 100",
-    angle_rule="equal angles only",
-    size_rule="two equal spheres of the Derjaguin radius",
+    solids={"force": Solids("equal", "mean", "mean"), "rupture": Solids("equal", "mean", "mean")},
     reference="C.-F. Zhao, N. P. Kruyt, O. Millet, Powder Technology 360 (2020) 622-634",
     doi="",
     equations="26, 29-32, 37-40",

@@ -48,7 +48,7 @@ def _told(found: Bools, sampled: str) -> str:
 
 
 _SUCTIONS = "H* = 1, 10, 10³, 10⁵, three angles, 0.05 to 0.99 of the rupture distance"
-_VOLUMES = "V* = 10⁻⁶, 10⁻⁴, 10⁻², three angles, 0.05 to 0.99 of the rupture distance, where both branches exist"
+_VOLUMES = "V* = 10⁻⁶, 10⁻⁴, 10⁻², three angles, 0.05 to 0.99 of the fold, where both branches exist"
 
 
 def _surface_under_volume(states: tuple[Bridge, Bridge]) -> Claim:

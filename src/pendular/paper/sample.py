@@ -78,15 +78,17 @@ def rupture_distance(suction: ArrayLike, degrees: ArrayLike = 0.0, ratio: ArrayL
 
 def all_states(degrees: float = 0.0, ratio: float = 1.0, points: int = 201, **control: Any) -> tuple[Bridge, int]:
     """Exact bridges from contact to the fold and down the unstable branch, and the index of the fold."""
-    return curve(pair_of(degrees, ratio), points=points, liquid=LIQUID, **control), points // 2
+    return curve(pair_of(degrees, ratio), points=points, liquid=LIQUID, limit="fold", **control), points // 2
 
 
 def both_branches(
     part: ArrayLike, degrees: ArrayLike = 0.0, ratio: ArrayLike = 1.0, **control: Any
 ) -> tuple[Bridge, Bridge]:
-    """Stable and unstable bridges at the same parts of the rupture distance."""
-    separation = part * np.asarray(end_of(degrees, ratio, **control).separation)
-    stable, unstable = (state(separation, degrees, ratio, branch=side, **control) for side in ("stable", "unstable"))
+    """Bridges of the branch from contact and of the other one, at parts of the fold, at which the article ends both."""
+    separation = part * np.asarray(end_of(degrees, ratio, limit="fold", **control).separation)
+    stable, unstable = (
+        state(separation, degrees, ratio, branch=side, limit="fold", **control) for side in ("stable", "unstable")
+    )
     return stable, unstable
 
 

@@ -215,6 +215,6 @@ def _maximum_of_p() -> Claim:
         f"Separation at the largest P against the fold, V* = 10⁻⁶: {tell(numbers)}",
         is_within(numbers, 0.5),
         "At fixed volume the gap is P times a contact radius that changes too, so its maximum is not that of P.",
-        "pendular.rupture(volume=..., limit='fold' or 'stability') follows the branch itself.",
+        "pendular.rupture(volume=...) follows the branch itself, to the end of stability or to the fold.",
         numbers,
     )

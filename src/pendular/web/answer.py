@@ -2,6 +2,7 @@
 
 import math
 import warnings
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -70,29 +71,40 @@ def _ask_law(law: Law, view: View, asked: Question, state: Bridge, end: Bridge) 
     """Errors of a law at a state, and its curve if it is to be drawn."""
     force_error = rupture_error = last = math.nan
     separation = force = np.empty(0)
+    refusals: list[str] = []
+
+    def say(function: Callable[..., Bridge], *gap: Any) -> Bridge | None:
+        try:
+            return asked.put_to(function, *gap, method=law.name)
+        except ValueError as refusal:  # of the law: the exact solver has answered the same question
+            refusals.append(str(refusal))
+            return None
+
     is_own = (law.control == "volume") == (view.control == "volume")
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        if "force" in law.gives and state.exists:
-            force_error = _relative(asked.put_to(bridge, state.separation, method=law.name).force, state.force)
-        if "rupture" in law.gives and is_own:
-            last = float(asked.put_to(rupture, method=law.name).separation)
+        if "force" in law.gives and state.exists and (said := say(bridge, state.separation)):
+            force_error = _relative(said.force, state.force)
+        if "rupture" in law.gives and is_own and (said := say(rupture)):
+            last = float(said.separation)
             rupture_error = _relative(last, end.separation) if end.exists else math.nan
-        outside = _outside(caught)  # the state; its curve may well leave the range
+        outside = refusals[0] if refusals else _outside(law, caught)  # the state; its curve may well leave the range
         if "force" in law.gives and law.name in view.laws:
             reach = last if last > 0.0 else float(end.separation) * (_BEYOND if is_own else 1.0)
             if math.isfinite(reach):
                 # Dense towards rupture, where forces are steep.
                 separation = reach * np.sin(np.linspace(0.0, 0.5 * math.pi, _LAW_POINTS if is_own else _OTHER_POINTS))
-                drawn = asked.put_to(bridge, separation, method=law.name)
-                force = np.where(drawn.exists, drawn.force, np.nan)
+                drawn = say(bridge, separation)
+                force = np.where(drawn.exists, drawn.force, np.nan) if drawn else np.full(separation.shape, np.nan)
     return LawAnswer(law, force_error, rupture_error, outside, separation, force)
 
 
-def _outside(caught: list[warnings.WarningMessage]) -> str:
+def _outside(law: Law, caught: list[warnings.WarningMessage]) -> str:
     """What leaves the range of a law by the warnings it gave, in words."""
     for warning in caught:
         if isinstance(warning.message, RangeWarning):
+            if warning.message.outside is None:
+                return str(warning.message).removeprefix(f"{law.name}: ")
             name, value, low, high = warning.message.outside
             limits = limit_words(name, low, high).replace(">=", "≥")
             return f"{variable_words(name, value)}; the law is for {limits}"
