@@ -157,8 +157,8 @@ def _draw_circle(axes: Axes, z: Four) -> None:
         spot = {"xytext": (place, 6), "textcoords": "offset points", "ha": "right" if place < 0 else "left"}
         axes.annotate(name, (crossing, 0.0), color=FAINT, **spot)
     axes.set_xlim(right=centre + 1.45 * size)
-    axes.annotate("$-1/H$", (centre, 0.0), (0, -16), textcoords="offset points", ha="center")
-    axes.annotate(r"turned by $2\omega$", (centre, 0.0), (14, 12), textcoords="offset points", color=FAINT)
+    axes.annotate("$-1/H$", (centre, 0.0), (6, -16), textcoords="offset points")
+    axes.annotate(r"turned by $2\omega$", (centre, 0.0), (4, 12), textcoords="offset points", color=FAINT)
     axes.annotate(r"$\zeta_m$", (middle.real, middle.imag), (8, -2), textcoords="offset points", size=12)
     axes.set_title(r"the same meridian as $\zeta = Y e^{i\varphi}$: an arc of a circle")
 
@@ -338,7 +338,7 @@ def draw_pitchfork(path: Path) -> None:
     lower.loglog(differences, fork - ends, color=ACCENT, lw=2)
     lower.loglog(differences, 0.018 * differences ** (2 / 3), color=INK, lw=0.9, ls=dashes)
     lower.annotate("slope 2/3", (1e-5, 3e-6), color=INK)
-    lower.set(xlabel="relative difference of the radii", ylabel="lost of the rupture distance $/R$")
+    lower.set(xlabel="relative difference of the radii", ylabel="rupture distance lost $/R$")
     drawing.savefig(path)
 
 
