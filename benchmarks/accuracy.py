@@ -76,8 +76,12 @@ ERRORS: dict[str, Callable[[pl.Bridge, list[Row]], Floats]] = {
 
 
 def errors_of(rows: list[Row]) -> dict[str, Floats]:
-    """Errors of all fields for rows of one control and branch; infinite where no bridge was found."""
-    bridge = pl.bridge(pair_of(rows), numbers(rows, "gap"), **control_of(rows), liquid=UNIT, branch=rows[0]["branch"])
+    """Errors of all fields for rows of one control and branch; infinite where no bridge was found.
+
+    The rows go up to the fold, between equal solids past the place where the liquid slides to one of them.
+    """
+    asked = {"branch": rows[0]["branch"], "limit": "fold"}
+    bridge = pl.bridge(pair_of(rows), numbers(rows, "gap"), **control_of(rows), liquid=UNIT, **asked)
     return {name: np.where(bridge.exists, error(bridge, rows), np.inf) for name, error in ERRORS.items()}
 
 
@@ -107,7 +111,7 @@ def report_ruptures(rows: list[Row], tables: dict[str, list[Row]]) -> None:
     print("\nrupture distance")
     for control in ("suction", "volume"):
         group = [row for row in rows if row["control"] == control and row["gap_max"] is not None]
-        rupture = pl.rupture(pair_of(group), **control_of(group), liquid=UNIT)
+        rupture = pl.rupture(pair_of(group), **control_of(group), liquid=UNIT, limit="fold")
         digits = "" if control == "suction" else ", known to 10 digits"
         report_rupture(f"constant {control}{digits}", rupture, numbers(group, "gap_max"))
     table = tables["suction_fold"]

@@ -112,17 +112,29 @@ def test_without_a_contact_angle_the_liquid_wets_all(answer):
 def test_rupture_under_suction_has_no_earlier_limit(answer):
     found = parsed(answer("rupture", *SUCTION, "--json"))
     assert found["separation"] == pl.rupture(PAIR, suction=20e3, liquid=WATER).separation
-    assert found["stability_limit"] is None
+    assert found["lower_end"] is None
+    assert found["fold"] is None
 
 
 def test_rupture_at_constant_volume_tells_the_earlier_loss_of_stability(answer):
     asked = ("rupture", "--radius", "50um", "--contact-angle", "40", "--volume", "125um^3")
-    fold, first = rows_of(answer(*asked, "--csv"))
-    assert (fold["limit"], first["limit"]) == ("fold", "stability")
+    first, fold = rows_of(answer(*asked, "--csv"))
+    assert (first["limit"], fold["limit"]) == ("rupture", "fold")
     assert float(fold["separation [m]"]) / 50e-6 == pytest.approx(0.135843, abs=1e-6)
     assert float(first["separation [m]"]) / 50e-6 == pytest.approx(0.133586, abs=1e-6)
-    assert parsed(answer(*asked, "--json"))["stability_limit"]["separation"] == float(first["separation [m]"])
-    assert re.search(r"^stable to +6.6793 µm ", answer(*asked), re.MULTILINE)
+    assert parsed(answer(*asked, "--json"))["fold"]["separation"] == float(fold["separation [m]"])
+    assert re.search(r"^rupture distance +6.6793 µm ", answer(*asked), re.MULTILINE)
+    assert re.search(r"^symmetric to +6.7922 µm ", answer(*asked), re.MULTILINE)
+
+
+def test_rupture_of_a_large_drop_tells_both_ends(answer):
+    angles = ("--contact-angle", "16.4", "--contact-angle2", "90.9")
+    asked = ("rupture", "--radius", "50um", *angles, "--volume", "1.2625nL")
+    found = parsed(answer(*asked, "--json"))
+    assert found["separation"] / 50e-6 == pytest.approx(2.035887, abs=1e-6)
+    assert found["lower_end"]["separation"] / 50e-6 == pytest.approx(0.216203, abs=1e-6)
+    assert found["volume"] == pytest.approx(1.2625e-12, rel=1e-12)
+    assert re.search(r"^stable from +10.81 µm ", answer(*asked), re.MULTILINE)
 
 
 def test_a_curve_goes_over_the_fold_and_back(answer):

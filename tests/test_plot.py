@@ -30,7 +30,8 @@ CASES = {
     "repulsive": (pair((50e-6, 50e-6), (80, 80)), 1e-6, {"volume": 50e-15}),
     "nanometres": (pair((50e-6, 50e-6), (20, 20)), 0.2e-9, {"suction": 93.5e6}),
     "nanometres on a plate": (pair((50e-6, PLANE), (20, 60)), 0.5e-9, {"suction": 69e6}),
-    "early instability": (pair((50e-6, 50e-6), (60, 60)), 15e-6, {"volume": 10e-15}),
+    "sliding": (pair((50e-6, 50e-6), (60, 60)), 15e-6, {"volume": 10e-15}),
+    "two ends": (pair((50e-6, 50e-6), (16.4, 90.9)), 60e-6, {"volume": 1.26e-12}),
     "beyond rupture": (pair((50e-6, 50e-6), (20, 20)), 5e-6, {"suction": 20e3}),
     "close to rupture": (pair((50e-6, 50e-6), (20, 20)), 3.25e-6, {"suction": 20e3}),
     "overlap": (pair((50e-6, 50e-6), (20, 20)), -2e-6, {"suction": 20e3}),
@@ -43,11 +44,11 @@ def drawn(name: str, *, with_state: bool = True, stacked: bool = False):
     solids, separation, control = CASES[name]
     held = {**control, "liquid": WATER}
     end, curve = pl.rupture(solids, **held), pl.curve(solids, **held)
-    first = pl.rupture(solids, **held, limit="stability")
+    first = pl.rupture(solids, **held, end="lower")
     state = pl.bridge(solids, separation, **held) if with_state else None
-    earlier = first if first.separation < 0.999999 * end.separation else None
+    lower_end = first if first.exists else None
     title = "A title of this length"
-    return figure(solids, state, curve, end, separation=separation, instability=earlier, title=title, stacked=stacked)
+    return figure(solids, state, curve, end, separation=separation, lower_end=lower_end, title=title, stacked=stacked)
 
 
 @pytest.fixture(params=itertools.product(CASES, (False, True)), ids=lambda case: f"{case[0]}{' stacked' * case[1]}")
@@ -106,8 +107,12 @@ def test_the_curve_tells_force_and_rupture_distance():
     assert texts == ["rupture\n3.313 µm", "15.07 µN at 1 µm", "stable", "unstable"]
 
 
-def test_an_earlier_instability_is_told():
-    assert "stable to 32.07 µm" in [text.get_text() for text in drawn("early instability").axes[1].texts]
+def test_rupture_is_where_the_liquid_slides_to_one_side():
+    assert "rupture\n32.07 µm" in [text.get_text() for text in drawn("sliding").axes[1].texts]
+
+
+def test_where_the_stable_bridges_begin_is_told():
+    assert "stable from 10.81 µm" in [text.get_text() for text in drawn("two ends").axes[1].texts]
 
 
 def test_without_a_state_the_pair_ruptures():

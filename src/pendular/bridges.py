@@ -61,15 +61,20 @@ def bridge(
     separation : array_like
         D, whole gap from surface to surface, [m], above minus half the smaller radius; negative means overlap.
     suction : array_like, optional
-        Δp = p_gas - p_liquid held constant, [Pa]. Exactly one of the three controls is given.
+        Δp = p_gas - p_liquid held constant, [Pa], up to 1e13 γ/R̄ either way. Exactly one of the three controls is
+        given.
     volume : array_like, optional
-        Liquid volume held constant, [m³], > 0 and less than encloses the solids.
+        Liquid volume held constant, [m³], 1e-30 to 1e4 R̄³. Where it is too large for a bridge at contact, there is one
+        from the lower end of the stable branch on; see :func:`rupture`.
     humidity : array_like, optional
         Relative humidity in (0, 1), [-]: suction by the Kelvin equation.
     liquid : Liquid
         Surface tension, and for humidity density and molar mass.
     branch : {"stable", "unstable"}
-        Of the two bridges that meet at the rupture distance: the one connected with the contact, or the other.
+        The stable bridge, or the one beyond the end of the stable branch that meets it there.
+    limit : {"stability", "fold"}
+        Where the stable branch ends: at the end of stability, or at the fold. They differ for equal solids only; with
+        ``"fold"`` the symmetric bridges between the two are answered, too, and ``stable`` is False there.
     method : str
         ``"exact"``; ``"table"``, the exact answer from a :class:`Table` that is made first, for very many bridges;
         ``"dataset"``, the interpolation of the paper; or the name of a law in ``pendular.laws``. A table gives force,
@@ -146,13 +151,15 @@ def rupture(
     ----------
     pair, suction, volume, humidity, liquid
         As for :func:`bridge`.
-    limit : {"fold", "stability"}
-        The fold, beyond which there is no bridge; or where the bridge first loses its stability. The two differ only
-        at constant volume between equal solids of equal contact angle, above about 31°, where the liquid slides to one
+    end : {"upper", "lower"}
+        The rupture distance; or the lower end, below which no bridge of a large volume is stable since the drop would
+        rather swallow the better wetted solid. ``exists`` is False where the branch goes on to contact.
+    limit : {"stability", "fold"}
+        Where the bridge loses its stability; or the fold, beyond which there is no bridge. The two differ only at
+        constant volume between equal solids of equal contact angle, above about 31°, where the liquid slides to one
         side before the fold.
     method : str
-        ``"exact"``, ``"table"``, ``"dataset"``, or the name of a law of the given control in ``pendular.laws``. At
-        constant volume a table knows the limit of stability.
+        ``"exact"``, ``"table"``, ``"dataset"``, or the name of a law of the given control in ``pendular.laws``.
 
     Returns
     -------
@@ -173,8 +180,8 @@ def rupture(
 
     Notes
     -----
-    **Validity.** Relative error of the rupture distance below 1e-11. At the fold the stiffness is minus infinity and
-    ``stable`` tells of the branch that ends there.
+    **Validity.** Relative error of the rupture distance below 1e-11. At a fold the stiffness is infinite, and
+    ``unstable_directions`` and ``stable`` tell of the branch that ends there.
 
     Examples
     --------
@@ -182,10 +189,10 @@ def rupture(
     >>> water = Liquid(surface_tension=0.0728)
     >>> print(f"{rupture(grains, suction=20e3, liquid=water).separation:.6e}")
     2.443824e-06
-    >>> fold = rupture(grains, volume=1.25e-16, liquid=water)
-    >>> first = rupture(grains, volume=1.25e-16, liquid=water, limit="stability")
-    >>> print(f"{fold.separation / 50e-6:.6f} {first.separation / 50e-6:.6f}")
-    0.135844 0.133586
+    >>> first = rupture(grains, volume=1.25e-16, liquid=water)
+    >>> fold = rupture(grains, volume=1.25e-16, liquid=water, limit="fold")
+    >>> print(f"{first.separation / 50e-6:.6f} {fold.separation / 50e-6:.6f}")
+    0.133586 0.135844
     """
     one_of("end", end, ("upper", "lower"))
     one_of("limit", limit, ("stability", "fold"))

@@ -52,7 +52,7 @@ def figure(
     rupture: Bridge,
     *,
     separation: float = 0.0,
-    instability: Bridge | None = None,
+    lower_end: Bridge | None = None,
     title: str = "",
     subtitle: str = "",
     stacked: bool = False,
@@ -71,8 +71,8 @@ def figure(
         From `pendular.rupture`, at the fold.
     separation : float
         At which the present state was asked for, [m].
-    instability : Bridge, optional
-        The state at which the stable branch ends, where that comes before the fold.
+    lower_end : Bridge, optional
+        Where the stable bridges begin, if that is not at contact.
     title, subtitle : str
         Two lines above the picture.
     stacked : bool
@@ -106,7 +106,7 @@ def figure(
         draw_pair(of_pair, pair, bridge, separation)
     else:
         draw_pair(of_pair, pair, rupture, float(rupture.separation) if rupture.exists else 0.0)
-    draw_curve(of_curve, curve, rupture, bridge, separation=separation, instability=instability)
+    draw_curve(of_curve, curve, rupture, bridge, separation=separation, lower_end=lower_end)
     return drawing
 
 
@@ -235,7 +235,7 @@ def draw_curve(
     bridge: Bridge | None = None,
     *,
     separation: float = 0.0,
-    instability: Bridge | None = None,
+    lower_end: Bridge | None = None,
 ) -> None:
     """Draw force against separation: stable states as a line, unstable ones dashed; rupture and present state marked.
 
@@ -243,7 +243,7 @@ def draw_curve(
     ----------
     axes : matplotlib.axes.Axes
         Where to draw.
-    curve, rupture, bridge, separation, instability
+    curve, rupture, bridge, separation, lower_end
         As for `figure`.
     """
     if not rupture.exists:
@@ -271,8 +271,8 @@ def draw_curve(
         axes.plot(*now, "o", ms=7.5, mfc=INK, mec="white", mew=1.2, zorder=6)
         state = _number(float(bridge.force), "N") if bridge.exists else "no bridge"
         _label(axes, f"{state} at {_number(separation, 'm')}", now, taken, color=INK, weight="bold")
-    if instability is not None:
-        mark(instability, "stable to ", LIQUID_EDGE)
+    if lower_end is not None:
+        mark(lower_end, "stable from ", LIQUID_EDGE)
     fold = int(np.argmax(x))
     for name, run in (("stable", np.flatnonzero(stable[:fold])), ("unstable", np.arange(fold, x.size))):
         if run.size:

@@ -82,15 +82,20 @@ class Question(NamedTuple):
         """Return itself, where a sweep of the control has no answer; ValueError for one."""
         return self._replace(control=dict(self.held))
 
-    def instability(self, end: "Bridge") -> "Bridge | None":
-        """Where the bridge loses its stability, if that is before the fold `end`: at constant volume only."""
+    def lower_end(self) -> "Bridge | None":
+        """Where the stable bridges begin, if that is not at contact."""
         from .bridges import rupture
 
-        if "volume" not in self.control:
-            return None
-        first = self.put_to(rupture, limit="stability")
-        # Where nothing comes first both are the same point, found along two ways.
-        return first if first.separation < end.separation * (1.0 - 1e-9) else None
+        end = self.put_to(rupture, end="lower")
+        return end if end.exists else None
+
+    def later_fold(self, end: "Bridge") -> "Bridge | None":
+        """The fold of the symmetric bridges, if the liquid slides to one of two equal solids before it."""
+        from .bridges import rupture
+
+        fold = self.put_to(rupture, limit="fold")
+        # Where nothing comes first both are the same point.
+        return fold if fold.separation > end.separation * (1.0 + 1e-9) else None
 
     def draw(
         self, end: "Bridge", state: "Bridge | None" = None, separation: float = 0.0, *, stacked: bool = False
@@ -105,7 +110,7 @@ class Question(NamedTuple):
             self.put_to(curve),
             end,
             separation=separation,
-            instability=self.instability(end),
+            lower_end=self.lower_end(),
             title=self.title,
             subtitle=self.subtitle,
             stacked=stacked,

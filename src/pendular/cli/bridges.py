@@ -14,6 +14,11 @@ if TYPE_CHECKING:
 
 __all__ = ["bridge", "curve", "rupture"]
 
+_END_NAMES = {"lower_end": "stable from", "fold": "symmetric to"}
+_END_MEANINGS = {
+    "lower_end": "below, the drop swallows the better wetted solid",
+    "fold": "fold of the symmetric bridges; before it the liquid slides to one of the solids",
+}
 _SWEPT = ("force", "volume", "suction", "neck_radius")  # what the table of a sweep tells beside the separations
 
 
@@ -78,40 +83,39 @@ def rupture(question: Question) -> None:
     if sweep_length(**question.control) is not None:
         _print_ruptures(question, end)
         return
-    earlier = question.instability(end)
+    others = {"lower_end": question.lower_end(), "fold": question.later_fold(end)}
+    known = {name: state for name, state in others.items() if state is not None}
     if question.form == "json":
-        limit = None if earlier is None else report.plain_fields(earlier)
-        typer.echo(report.json_text({**report.plain_fields(end), "stability_limit": limit, "units": report.UNITS}))
+        fields = {name: None if state is None else report.plain_fields(state) for name, state in others.items()}
+        typer.echo(report.json_text({**report.plain_fields(end), **fields, "units": report.UNITS}))
     elif question.form == "csv":
-        limits = {"fold": end, "stability": earlier}
         rows = (
             [report.Column("limit", "", name), *report.columns(state)]
-            for name, state in limits.items()
-            if state is not None
+            for name, state in {"rupture": end, **known}.items()
         )
         typer.echo(report.csv_text(*rows), nl=False)
     else:
-        more = {}
-        if earlier is not None:
-            more["stable to"] = (show(float(earlier.separation), "m"), "then the liquid slides to one of the solids")
+        more = {
+            _END_NAMES[name]: (show(float(state.separation), "m"), _END_MEANINGS[name]) for name, state in known.items()
+        }
         print_answer(question, report.rupture_table(end, more))
 
 
 def _print_ruptures(question: Question, end: "Bridge") -> None:
-    """Print the ends of a sweep of bridges; a volume has two, and the first is told by its separation."""
+    """Print the ends of a sweep of bridges; a volume may have two, and the lower is told by its separation."""
     from .. import bridges, report
 
     limits = []
     if "volume" in question.control:
-        first = question.put_to(bridges.rupture, limit="stability")
-        limits.append(report.spread("stability_separation", "m", first.separation, end))
+        lower = question.put_to(bridges.rupture, end="lower")
+        limits.append(report.spread("lower_separation", "m", lower.separation, end))
     if question.form == "json":
         typer.echo(_json(question, end, *limits))
     elif question.form == "csv":
         typer.echo(_csv(question, end, *limits), nl=False)
     else:
         distances = report.column_of("separation", end)._replace(name="rupture_distance")
-        _print_sweep(question, end, distances, *(limit._replace(name="stable_to") for limit in limits))
+        _print_sweep(question, end, distances, *(limit._replace(name="stable_from") for limit in limits))
 
 
 @question_command("--radius 50um --radius2 5um --contact-angle 20 --humidity 90% --temperature 25degC --csv")

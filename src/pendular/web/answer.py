@@ -46,7 +46,7 @@ class Answer(NamedTuple):
     state: Bridge
     curve: Bridge
     rupture: Bridge
-    instability: Bridge | None
+    lower_end: Bridge | None
     laws: tuple[LawAnswer, ...]
     notices: tuple[str, ...]  # warnings of the library
 
@@ -61,7 +61,7 @@ def answer_to(view: View) -> Answer:
             warnings.simplefilter("always", category)
         state, end = asked.put_to(bridge, gap), asked.put_to(rupture)
         states = asked.put_to(curve, points=_CURVE_POINTS)
-        first = asked.instability(end) if end.exists else None
+        first = asked.lower_end() if end.exists else None
     notices = tuple(dict.fromkeys(str(warning.message) for warning in caught))
     lawful = tuple(_ask_law(law, view, asked, state, end) for law in laws.values())
     return Answer(view, asked, gap, state, states, end, first, lawful, notices)

@@ -123,11 +123,11 @@ def _laws(answer: Answer, gap: Scale, scale: Scale, places: dict[str, int]) -> l
 
 
 def _marks(answer: Answer, name: str, gap: Scale, scale: Scale) -> list[dict[str, Any]]:
-    """Points of their own: rupture, an earlier loss of stability, and the present state."""
+    """Points of their own: rupture, a lower end of the stable bridges, and the present state."""
     marks = [(answer.rupture, "rupture", {"color": "white", "size": 8, "line": {"color": ACCENT, "width": 2}})]
-    if answer.instability is not None:
+    if answer.lower_end is not None:
         marks.append(
-            (answer.instability, "stable to", {"color": "white", "size": 8, "line": {"color": LIQUID_EDGE, "width": 2}})
+            (answer.lower_end, "stable from", {"color": "white", "size": 8, "line": {"color": LIQUID_EDGE, "width": 2}})
         )
     now = {"color": INK, "size": 11, "line": {"color": "white", "width": 1.5}}
     points = [(float(state.separation), float(getattr(state, name)), words, style) for state, words, style in marks]

@@ -29,8 +29,8 @@ def headline(answer: Answer) -> str:
 
 
 def _stability(answer: Answer) -> str:
-    first = answer.instability
-    return "" if first is None else f"stable to {show(float(first.separation), 'm', 4)} only"
+    first = answer.lower_end
+    return "" if first is None else f"stable from {show(float(first.separation), 'm', 4)} on"
 
 
 def _tile(name: str, value: str, note: str, role: str) -> str:
