@@ -134,7 +134,7 @@ def test_rupture_of_a_large_drop_tells_both_ends(answer):
     assert found["separation"] / 50e-6 == pytest.approx(2.035887, abs=1e-6)
     assert found["lower_end"]["separation"] / 50e-6 == pytest.approx(0.216203, abs=1e-6)
     assert found["volume"] == pytest.approx(1.2625e-12, rel=1e-12)
-    assert re.search(r"^stable from +10.81 µm ", answer(*asked), re.MULTILINE)
+    assert re.search(r"^begins at +10.81 µm ", answer(*asked), re.MULTILINE)
 
 
 def test_a_curve_goes_over_the_fold_and_back(answer):

@@ -112,7 +112,7 @@ def test_rupture_is_where_the_liquid_slides_to_one_side():
 
 
 def test_where_the_stable_bridges_begin_is_told():
-    assert "stable from 10.81 µm" in [text.get_text() for text in drawn("two ends").axes[1].texts]
+    assert "begins at 10.74 µm" in [text.get_text() for text in drawn("two ends").axes[1].texts]
 
 
 def test_without_a_state_the_pair_ruptures():

@@ -272,7 +272,7 @@ def draw_curve(
         state = _number(float(bridge.force), "N") if bridge.exists else "no bridge"
         _label(axes, f"{state} at {_number(separation, 'm')}", now, taken, color=INK, weight="bold")
     if lower_end is not None:
-        mark(lower_end, "stable from ", LIQUID_EDGE)
+        mark(lower_end, "begins at ", LIQUID_EDGE)
     fold = int(np.argmax(x))
     for name, run in (("stable", np.flatnonzero(stable[:fold])), ("unstable", np.arange(fold, x.size))):
         if run.size:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 __all__ = ["bridge", "curve", "rupture"]
 
-_END_NAMES = {"lower_end": "stable from", "fold": "symmetric to"}
+_END_NAMES = {"lower_end": "begins at", "fold": "symmetric to"}
 _END_MEANINGS = {
     "lower_end": "below, the drop swallows the better wetted solid",
     "fold": "fold of the symmetric bridges; before it the liquid slides to one of the solids",
@@ -115,7 +115,7 @@ def _print_ruptures(question: Question, end: "Bridge") -> None:
         typer.echo(_csv(question, end, *limits), nl=False)
     else:
         distances = report.column_of("separation", end)._replace(name="rupture_distance")
-        _print_sweep(question, end, distances, *(limit._replace(name="stable_from") for limit in limits))
+        _print_sweep(question, end, distances, *(limit._replace(name="begins_at") for limit in limits))
 
 
 @question_command("--radius 50um --radius2 5um --contact-angle 20 --humidity 90% --temperature 25degC --csv")

@@ -127,7 +127,7 @@ def _marks(answer: Answer, name: str, gap: Scale, scale: Scale) -> list[dict[str
     marks = [(answer.rupture, "rupture", {"color": "white", "size": 8, "line": {"color": ACCENT, "width": 2}})]
     if answer.lower_end is not None:
         marks.append(
-            (answer.lower_end, "stable from", {"color": "white", "size": 8, "line": {"color": LIQUID_EDGE, "width": 2}})
+            (answer.lower_end, "begins at", {"color": "white", "size": 8, "line": {"color": LIQUID_EDGE, "width": 2}})
         )
     now = {"color": INK, "size": 11, "line": {"color": "white", "width": 1.5}}
     points = [(float(state.separation), float(getattr(state, name)), words, style) for state, words, style in marks]

@@ -30,7 +30,7 @@ def headline(answer: Answer) -> str:
 
 def _stability(answer: Answer) -> str:
     first = answer.lower_end
-    return "" if first is None else f"stable from {show(float(first.separation), 'm', 4)} on"
+    return "" if first is None else f"begins at {show(float(first.separation), 'm', 4)}"
 
 
 def _tile(name: str, value: str, note: str, role: str) -> str:
