@@ -229,6 +229,16 @@ def test_a_law_outside_its_range_says_why():
     assert {one.law.name: one.outside for one in drawn.laws}["pendular2026"] == ""
 
 
+def test_a_law_that_does_not_cover_the_solids_says_so_and_is_not_drawn():
+    answer = answer_to(View(contact_angle2="40°", laws=("zhao2020", "pendular2026")))
+    told = {one.law.name: one.outside for one in answer.laws}
+    assert told["zhao2020"].endswith("is not covered by 'zhao2020'; its force is for equal angles only")
+    assert told["pendular2026"] == ""
+    assert [line["name"] for line in curve_chart(answer, PLACES)["data"] if "name" in line] == ["pendular2026"]
+    for one in answer.laws:
+        assert one.outside or not math.isnan(one.force_error) or "force" not in one.law.gives
+
+
 def test_a_state_of_overlapping_solids_lies_within_the_axes():
     answer = answer_to(View(separation="-1 µm"))
     layout = curve_chart(answer, PLACES)["layout"]

@@ -80,7 +80,7 @@ def bridge(
         ``"dataset"``, the interpolation of the paper; or the name of a law in ``pendular.laws``. A table gives force,
         stiffness, volume and suction, the data base and a law the force only. A law of the other control is asked with
         the volume or the suction of the exact bridge; one at constant suction has no answer where that suction would
-        not hold the bridge.
+        not hold the bridge. Where a method has no answer the force is NaN and ``exists`` False.
 
     Returns
     -------
@@ -97,7 +97,7 @@ def bridge(
     KelvinWarning
         Where the Kelvin equation is doubtful, or the humidity does not fix the force.
     RangeWarning
-        Where a law is asked outside its range, once a call.
+        Where a law is asked outside its range, takes a mean of solids that differ, or says nothing; once a call.
     ConvergenceWarning
         Where the solver failed; the fields are NaN there.
 

@@ -93,9 +93,9 @@ def _ask_law(law: Law, view: View, asked: Question, state: Bridge, end: Bridge) 
             reach = last if last > 0.0 else float(end.separation) * (_BEYOND if is_own else 1.0)
             if math.isfinite(reach):
                 # Dense towards rupture, where forces are steep.
-                separation = reach * np.sin(np.linspace(0.0, 0.5 * math.pi, _LAW_POINTS if is_own else _OTHER_POINTS))
-                drawn = say(bridge, separation)
-                force = np.where(drawn.exists, drawn.force, np.nan) if drawn else np.full(separation.shape, np.nan)
+                gaps = reach * np.sin(np.linspace(0.0, 0.5 * math.pi, _LAW_POINTS if is_own else _OTHER_POINTS))
+                if drawn := say(bridge, gaps):
+                    separation, force = gaps, np.where(drawn.exists, drawn.force, np.nan)
     return LawAnswer(law, force_error, rupture_error, outside, separation, force)
 
 
