@@ -40,6 +40,16 @@ def test_answers_are_exact_to_the_bound_of_the_table():
     np.testing.assert_allclose(folds.separation, rupture, rtol=1e-9)
 
 
+def test_solids_that_no_suction_holds():
+    pair = pl.Pair(50e-6, 2.0)
+    dry = pl.bridge(pair, [0.0, 1e-6], suction=1e4, liquid=WATER, method="table")
+    assert dry.exists.tolist() == [False, False]
+    assert dry.force.tolist() == [0.0, 0.0]
+    end = pl.rupture(pair, suction=1e4, liquid=WATER, method="table")
+    assert not end.exists
+    assert math.isnan(end.separation)
+
+
 def test_humidity_is_a_suction():
     grains = pl.Pair(50e-6, 0.2)
     water = pl.Liquid.named("water", 293.15)
@@ -63,4 +73,4 @@ def test_what_a_table_does_not_know_is_refused(change, line):
 
 def test_the_fold_at_constant_volume_is_refused():
     with pytest.raises(ValueError, match="limit: 'fold' is not one of 'stability'"):
-        pl.rupture(pl.Pair(50e-6, 0.2), volume=1e-16, liquid=WATER, method="table")
+        pl.rupture(pl.Pair(50e-6, 0.2), volume=1e-16, liquid=WATER, method="table", limit="fold")

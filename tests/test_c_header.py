@@ -73,6 +73,17 @@ def asked_of(table, name, contact):
 # Agreement ---------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize("degrees", ["120", "90"])
+def test_solids_that_no_suction_holds_are_refused(tmp_path, capsys, degrees):
+    path = tmp_path / "bridge.h"
+    with pytest.raises(SystemExit) as end:
+        main(["export", "c", "--contact-angle", degrees, "--reduced-suction", "10", "100", "--out", str(path)])
+    assert end.value.code == 2
+    line = f"pendular: contact_angle: {degrees} and {degrees} deg are not below 180 deg together; no suction"
+    assert capsys.readouterr().err.startswith(line)
+    assert not path.exists()
+
+
 @pytest.mark.parametrize("options", [("-O2",), ("-O3", "-march=native")], ids=" ".join)
 @pytest.mark.parametrize("compiler", [C, CPP], ids=" ".join)
 def test_c_answers_what_the_table_answers(table, compiler, options, tmp_path):

@@ -36,11 +36,11 @@ def bridge_by_table(problem: Problem) -> Bridge:
 
 
 def rupture_by_table(problem: Problem) -> Bridge:
-    """Rupture distance: the fold, or at constant volume the first loss of stability."""
+    """Rupture distance: the end of the stable branch."""
     distance = np.empty(len(problem.rows))
     for chosen, table, arguments in _tables(problem):
         distance[chosen] = table.rupture_distance(*arguments)
-    return partial_bridge(problem, distance, np.full(distance.shape, np.nan), ~np.isnan(distance))
+    return partial_bridge(problem, distance, np.full(distance.shape, np.nan), distance > 0.0)
 
 
 def _tables(problem: Problem) -> list[tuple[NDArray[np.bool_], Table, tuple[Floats, Floats, Floats, Floats]]]:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from .. import __version__
 from ..table.kernels import CELLS, Q_COUNT, SIZE_CELLS, U_COUNT, Grid
 from ..table.polynomial import CELL, CONTROL_TERMS, LANES, LEAST_SIZE_TERMS, RUPTURE_CELL, RUPTURE_SIZE_TERMS
+from ..table.task import holds_none
 
 if TYPE_CHECKING:
     from ..table import Table
@@ -84,7 +85,7 @@ def c_header(table: "Table", *, prefix: str = "pendular_") -> str:
     Raises
     ------
     ValueError
-        If the prefix is no identifier of C, or the header would be larger than a megabyte.
+        If the prefix is no identifier of C, the table holds no bridge, or the header would be larger than a megabyte.
 
     Examples
     --------
@@ -95,6 +96,12 @@ def c_header(table: "Table", *, prefix: str = "pendular_") -> str:
     """
     if not _IDENTIFIER.fullmatch(prefix):
         raise ValueError(f"prefix: {prefix!r} does not begin a name in C; write it like pendular_")
+    if table.control == "suction" and holds_none(table.contact_angle):
+        first, second = np.rad2deg(table.contact_angle)
+        raise ValueError(
+            f"contact_angle: {first:.10g} and {second:.10g} deg are not below 180 deg together; "
+            "no suction holds a bridge beyond"
+        )
     template = Template((files(__package__) / "header.h.in").read_text(encoding="utf-8"))
     words = _CONTROLS[table.control]._asdict() | _about(table) | _numbers(table.grid)
     text = template.substitute(words, prefix=prefix, guard_stem=prefix.upper().rstrip("_"))
@@ -194,8 +201,9 @@ def _unit(numbers: Floats) -> float:
 def bound_lines(table: "Table") -> list[str]:
     """Errors of a table for people, a line each."""
     liquid, bound = _CONTROLS[table.control].liquid, table.bound
+    unit = "of that at contact" if table.control == "suction" else "of gamma sqrt(Rm/V)"
     return [
-        f"Largest errors   force {bound.force:.1e} of that at contact (asked {table.tolerance:g}), rupture distance",
-        f"                 {bound.rupture:.1e} of itself, {liquid} {bound.liquid:.1e} of that at contact; "
-        f"measured on {bound.bridges} exact bridges",
+        f"Bounds of error  force {bound.force:.1e} of the largest, mostly that at contact (asked {table.tolerance:g}),",
+        f"                 rupture distance {bound.rupture:.1e} of itself, {liquid} {bound.liquid:.1e} {unit};",
+        f"                 half as much again as the worst of {bound.bridges} exact bridges, sought in all cells",
     ]

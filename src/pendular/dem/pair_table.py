@@ -63,7 +63,7 @@ def pair_table(
     Raises
     ------
     ValueError
-        For bad input, a plane, or a pair that no bridge holds together.
+        For bad input, a plane, or a pair that no bridge holds together from the deepest overlap to rupture.
 
     Examples
     --------
@@ -89,6 +89,12 @@ def pair_table(
     distance = np.sqrt(np.linspace(first * first, last * last, count))
     between = np.sqrt(0.5 * (distance[:-1] ** 2 + distance[1:] ** 2))
     rows, middles, touching = at(distance[:-1] - contact), at(between - contact), at(0.0)
+    for gaps, found in ((distance[:-1], rows), (between, middles)):
+        missing = gaps[~found.exists] - contact
+        if missing.size:
+            raise ValueError(
+                f"pair: no bridge holds these grains at a separation of {missing[0]:.6g} m, nearer than rupture"
+            )
     force = np.append(rows.force, end.force)
     is_volume = volume is not None
     energy = np.append(_potential(rows, is_volume) - _potential(end, is_volume), 0.0)

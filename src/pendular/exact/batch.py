@@ -47,6 +47,7 @@ STABLE, UNSTABLE, RUPTURE, LOWER_END = 0, 1, 2, 3
 FOUND, NO_BRIDGE, FAILED = 0, 1, 2
 
 _MET = 1e-13  # largest miss of the end of a branch, over the length of the arc, that is the end itself
+_ROUNDING = 1e-15  # of a sum of cosines
 _LARGEST_MISS = 1e-10  # of the equations of an answer
 _MISS_WHERE_CLOSED = 1e-8  # where a contact circle has nearly closed, its slope is known no better
 _MOST_STEPS = 14
@@ -138,7 +139,8 @@ def _answer(asked: int, limit: int, task: Task, nodes: Nodes) -> End:
 @kernel
 def _holds_nothing(task: Task) -> bool:
     """Whether no stable bridge is possible at any separation: under suction the solids have to be wetted."""
-    return task.control == SUCTION and task.value >= 0.0 and not math.cos(task.angle1) + math.cos(task.angle2) > 0.0
+    wetting = math.cos(task.angle1) + math.cos(task.angle2)
+    return task.control == SUCTION and task.value >= 0.0 and not wetting > _ROUNDING
 
 
 @kernel

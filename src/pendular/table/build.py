@@ -7,9 +7,20 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .cuts import Cut, Points, chebyshev, choose, interpolation_error, octave_of, shifted_bits, to_powers, truncated
+from .cuts import (
+    Cut,
+    Points,
+    chebyshev,
+    choose,
+    cut_of,
+    interpolation_error,
+    octave_of,
+    shifted_bits,
+    to_powers,
+    truncated,
+)
 from .kernels import Grid
-from .polynomial import CONTROL_TERMS, LANES, RUPTURE_SIZE_TERMS, SIZE_TERMS, aligned
+from .polynomial import CELL, CONTROL_TERMS, LANES, RUPTURE_CELL, RUPTURE_SIZE_TERMS, SIZE_TERMS, aligned
 from .samples import Sample, curves_of, sample_octave
 from .task import Task
 
@@ -20,6 +31,7 @@ Pairs = Callable[[Floats], tuple[Floats, Floats]]  # controls and sizes at place
 _MANTISSA = 52
 # The last one is contact; next to it the force of a small volume falls fast.
 _TRIAL_Q = np.array([0.02, 0.2, 0.5, 0.8, 0.92, 0.97, 0.99, 0.997, 1.0])
+_TRIAL_SIZES = np.array([0.0, 0.5, 0.9, 0.99, 1.0])  # over the range; next to a plane small suctions vary most
 _FINEST_CONTROL = 6  # as a power of two: cells to an octave
 _STEPS_BACK = 16
 _SLACK = 1.0 + 1e-12  # of the ranges: radii at the limit are on either side of it by rounding
@@ -47,16 +59,20 @@ def _columns(samples: Samples, control: Floats, size: Floats, q: Floats) -> tupl
     )
 
 
-def _ends_of(task: Task, exponent: int) -> tuple[Floats, Floats]:
-    """Controls at the ends of an octave, as far as it is in the range, and sizes at the ends of the range."""
+def _trials_of(task: Task, exponent: int) -> tuple[Floats, Floats]:
+    """Controls at the ends of an octave, as far as it is in the range, and sizes from end to end of the range."""
     controls = max(task.low, 2.0**exponent), min(task.high, 2.0 ** (exponent + 1))
-    return np.unique(controls), np.unique(task.sizes)
+    low, high = task.sizes
+    return np.unique(controls), np.unique(low + (high - low) * _TRIAL_SIZES)
 
 
 def _units(task: Task, samples: Samples, exponent: int) -> tuple[float, float]:
     """What the tolerance allows of D_c and of the force, along one coordinate."""
-    rupture, contact = _columns(samples, *np.meshgrid(*_ends_of(task, exponent)), np.ones(1))
-    return task.rupture_tolerance * float(rupture.min()), task.share * task.tolerance * float(contact.min())
+    pairs = np.meshgrid(*_trials_of(task, exponent))
+    found = [curves_of(sample, *pairs, _TRIAL_Q) for sample in samples]
+    rupture = min(curves.rupture.min() for curves in found)
+    force = min(np.abs(curves.values[..., 0]).max(axis=1).min() for curves in found)
+    return task.rupture_tolerance * float(rupture), task.share * task.tolerance * float(force)
 
 
 def _error(samples: Samples, units: tuple[float, float], pairs: Pairs, points: Points, terms: tuple[int, int]) -> float:
@@ -74,32 +90,30 @@ def _error(samples: Samples, units: tuple[float, float], pairs: Pairs, points: P
 
 
 def _control_error(samples: Samples, units: tuple[float, float], exponent: int, parts: int, sizes: Floats) -> float:
-    """The same for the control, in the first and widest cell of an octave, at the ends of the range of sizes."""
+    """The same for the control, in the first and the last cell of an octave."""
     low, width = 2.0**exponent, 2.0 ** (exponent - parts)
+    middles = low + width * np.array([0.5, 2.0**parts - 0.5])
 
     def points(t: Floats) -> Floats:
-        return (low + 0.5 * width * (1.0 + t))[None]
+        return middles[:, None] + 0.5 * width * t
 
     return _error(samples, units, lambda control: (control, sizes), points, (LANES, CONTROL_TERMS))
 
 
-def _q_error(task: Task, samples: Samples, controls: Floats, points: Points) -> float:
-    """The same for q, at three sizes."""
-    low, high = task.sizes
-    pairs = np.meshgrid(controls, np.unique([low, 0.5 * (low + high), high]))
+def _q_error(task: Task, samples: Samples, controls: Floats, sizes: Floats, points: Points) -> float:
+    """The same for q."""
+    pairs = np.meshgrid(controls, sizes)
 
     def forces(q: Floats) -> Floats:
-        force = np.concatenate(
-            [curves_of(sample, pairs[0], pairs[1], np.append(q, 1.0)).values[..., 0] for sample in samples]
-        )
-        return (force / force[:, -1:])[:, :-1].T
+        force = np.concatenate([curves_of(sample, *pairs, q).values[..., 0] for sample in samples])
+        return (force / np.abs(force).max(axis=1, keepdims=True)).T
 
     return float(interpolation_error(forces, points, LANES).max() / task.share / task.tolerance)
 
 
 def _cut_octave(task: Task, samples: Samples, exponent: int, before: Octave | None) -> Octave:
     """Choose the cuts for an octave, beginning a little below those of the one before."""
-    controls, sizes = _ends_of(task, exponent)
+    controls, sizes = _trials_of(task, exponent)
     units = _units(task, samples, exponent)
     after = (0, 0) if before is None else tuple(max(0, choice - _STEPS_BACK) for choice in before.choices)
     parts = 0
@@ -111,7 +125,7 @@ def _cut_octave(task: Task, samples: Samples, exponent: int, before: Octave | No
         return _error(samples, units, lambda size: (controls, size), points, terms)
 
     size, size_choice = choose(size_error, *task.sizes, after[0])
-    q, q_choice = choose(lambda points: _q_error(task, samples, controls, points), 0.0, 1.0, after[1])
+    q, q_choice = choose(lambda points: _q_error(task, samples, controls, sizes, points), 0.0, 1.0, after[1])
     return Octave(exponent, parts, size, q, (size_choice, q_choice), samples)
 
 
@@ -179,6 +193,38 @@ def build_grid(task: Task, samples: list[Samples]) -> Grid:
     return fill_grid(task, octaves)
 
 
+def empty_grid(task: Task) -> Grid:
+    """The grid of pairs that hold no bridge: one cell, and the rupture distance is 0."""
+    size, q = (cut_of(*ends, 1, 0, is_reversed=False) for ends in (task.sizes, (0.0, 1.0)))
+    first, last = octave_of(task.low), octave_of(task.high)
+    rows = last - first + 3  # with one before and one after, for what lies at the limits but for rounding
+    line = [0.0, 0.0, size.w0, size.w1, q.w0, q.w1]
+    cut = [size.shift, size.first, size.cells, q.shift, q.first, q.cells, 0, 0]
+    return _grid_of(
+        task, task.sides * rows * [line], task.sides * rows * [cut], np.zeros(RUPTURE_CELL), np.zeros((2, CELL)),
+        _MANTISSA, first, rows,
+    )  # fmt: skip
+
+
+def _grid_of(
+    task: Task,
+    lines: list[list[float]],
+    cuts: list[list[int]],
+    rupture: Floats,
+    values: Floats,
+    shift: int,
+    exponent: int,
+    rows: int,
+) -> Grid:
+    """The grid of a task, from its headers and coefficients; its rows begin at an octave."""
+    return Grid(
+        np.array(lines), np.array(cuts, np.int64), aligned(rupture), aligned(values[0]), aligned(values[1]),
+        shift, shifted_bits(2.0**exponent, shift) - 1, rows,
+        task.low / _SLACK, task.high * _SLACK, 1.0 / task.high_ratio / _SLACK, _SLACK / task.low_ratio,
+        task.sides, task.is_volume,
+    )  # fmt: skip
+
+
 def fill_grid(task: Task, octaves: list[Octave]) -> Grid:
     """Fill the cells of the octaves."""
     finest = max(octave.parts for octave in octaves)
@@ -199,12 +245,6 @@ def fill_grid(task: Task, octaves: list[Octave]) -> Grid:
                 cells += size.cells * q.cells
         rows = [rows[0], *rows, rows[-1]]  # for what lies at the limits but for rounding
         headers += rows
-    lines, cuts = zip(*headers, strict=True)
-    force, liquid = np.concatenate(values, axis=1)
-    shift = _MANTISSA - finest
-    return Grid(
-        np.array(lines), np.array(cuts, np.int64), aligned(np.concatenate(rupture)), aligned(force), aligned(liquid),
-        shift, shifted_bits(2.0 ** octaves[0].exponent, shift) - 1, len(rows),
-        task.low / _SLACK, task.high * _SLACK, 1.0 / task.high_ratio / _SLACK, _SLACK / task.low_ratio,
-        task.sides, task.is_volume,
-    )  # fmt: skip
+    lines, cuts = (list(each) for each in zip(*headers, strict=True))
+    coefficients = np.concatenate(rupture), np.concatenate(values, axis=1)
+    return _grid_of(task, lines, cuts, *coefficients, _MANTISSA - finest, octaves[0].exponent, len(rows))

@@ -152,10 +152,17 @@ def ends_of(grid: Grid, row: int, cell: int) -> tuple[float, float]:
 
 
 @kernel
+def gap_of(separation: float) -> float:
+    """The separation, 0 in an overlap: solids hold no bridge there if D_c is 0, so that those in touch hold none."""
+    return 0.0 if separation < 0.0 else separation
+
+
+@kernel
 def if_bridged(value: float, separation: float, rupture: float, beyond: float) -> float:
     """A value before rupture, another one beyond, NaN if one of the two lengths is NaN."""
-    other = beyond if separation >= rupture else math.nan
-    return value if separation < rupture else other
+    gap = gap_of(separation)
+    other = beyond if gap >= rupture else math.nan
+    return value if gap < rupture else other
 
 
 @kernel
@@ -177,7 +184,7 @@ def find(
 
 @kernel
 def rupture_distance(grid: Grid, control: float, radius1: float, radius2: float, surface_tension: float) -> float:
-    """Separation at which the bridge breaks, [m]."""
+    """Separation at which the bridge breaks, [m]; 0 where there is none."""
     return find(grid, control, radius1, radius2, surface_tension)[2]
 
 
@@ -187,8 +194,8 @@ def force(
 ) -> float:
     """Attraction of two solids, [N]: 0 from the rupture distance on."""
     pair, place, rupture = find(grid, control, radius1, radius2, surface_tension)
-    if not separation < rupture:
-        return 0.0 if separation >= rupture else math.nan
+    if not gap_of(separation) < rupture:
+        return 0.0 if gap_of(separation) >= rupture else math.nan
     cell, t = cell_of(grid, place, q_of(separation, rupture))
     return 2.0 * math.pi * surface_tension * pair.radius * in_three(grid.force, cell * CELL, place.x, place.y, t)
 
@@ -207,7 +214,7 @@ def liquid(
 ) -> float:
     """Liquid volume under suction, [m³], or suction at constant volume, [Pa]; NaN where there is no bridge."""
     pair, place, rupture = find(grid, control, radius1, radius2, surface_tension)
-    if not separation < rupture:
+    if not gap_of(separation) < rupture:
         return math.nan
     cell, t = cell_of(grid, place, q_of(separation, rupture))
     unit = liquid_unit(grid, pair.control, pair.radius, surface_tension)
@@ -223,7 +230,7 @@ def stiffness(
     dq/dD = -1/(2 q D_c).
     """
     pair, place, rupture = find(grid, control, radius1, radius2, surface_tension)
-    if not separation < rupture:
+    if not gap_of(separation) < rupture:
         return math.nan
     if separation < 0.0:
         return 0.0
@@ -266,8 +273,8 @@ def energy(
     E(D) = -∫ F dD from D to D_c = -2 D_c ∫ F q dq from 0 to q(D).
     """
     pair, place, rupture = find(grid, control, radius1, radius2, surface_tension)
-    if not separation < rupture:
-        return 0.0 if separation >= rupture else math.nan
+    if not gap_of(separation) < rupture:
+        return 0.0 if gap_of(separation) >= rupture else math.nan
     unit = 2.0 * math.pi * surface_tension * pair.radius
     work = 2.0 * rupture * unit * _integral(grid, place, q_of(separation, rupture))
     overlap = -separation if separation < 0.0 else 0.0

@@ -1,74 +1,223 @@
-"""The error of a table, measured on exact bridges that it was not made from."""
+"""The error of a table: a search for the worst place, on exact bridges that it was not made from.
+
+The error of an interpolation in three coordinates is largest where the errors along each of them are, near the ends of
+a cell and between its nodes. So bridges are compared in all cells, most of them near ends and many at corners. From
+the worst places the search goes on by random steps in the cell, ever smaller ones. A place that is worse still may be
+left, hence the factor in what is stated.
+"""
 
 import math
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .._jit import in_chunks
+from ..exact.batch import RUPTURE as END
+from ..exact.batch import STABLE, answer
+from ..exact.equations import SUCTION, VOLUME
+from ..exact.state import State
 from .arrays import FORCE, LIQUID, RUPTURE, block_range, scalar_range
-from .kernels import Grid
-from .samples import exact_curves
+from .kernels import (
+    Q0,
+    Q1,
+    Q_COUNT,
+    Q_FIRST,
+    Q_SHIFT,
+    SIZE_CELLS,
+    U0,
+    U1,
+    U_COUNT,
+    U_FIRST,
+    U_SHIFT,
+    X0,
+    X1,
+    Grid,
+)
+from .samples import pairs_of
 from .task import Task
 
 Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
 
-_SUCTION_CURVES, _VOLUME_CURVES = 4000, 1000
+SAFETY = 1.5  # the stated bound over the largest error that the search finds
 _SEED = 20260
 _NEAREST_RUPTURE = 0.002  # in q: 1 - D/D_c = 4e-6
+_CORNERS = np.array([[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]])  # of a cell of control and size
+_CURVES, _LEAST_CURVES = 8, 4000  # in each cell of control and size; in all, where there are few cells
+_PLACES = 16  # on a curve
+_AT_ENDS = 0.3  # share of the coordinates that are one of the two ends of a cell
+_SCALE = np.array([1.0, 0.6, 0.3])  # q at which the largest force of a curve is looked for
+_WORST, _STEPS, _WIDTHS = 200, 8, (0.3, 0.1, 0.03, 0.01)  # of the search from the worst places; widths in half cells
+_CURVES_AT_ONCE = 8192
 _CHUNK = 65536
+_COLUMNS = [State._fields.index(name) for name in ("force", "volume", "curvature")]
 
 
 class Bound(NamedTuple):
-    """Largest errors found."""
+    """Largest errors that a search found, and half as much again."""
 
-    force: float  # over the force at contact, up to 1 - D/D_c = 4e-6
+    force: float  # over the largest force of the bridge, mostly that at contact; up to 1 - D/D_c = 4e-6
     rupture: float  # of the rupture distance, relative
-    liquid: float  # of volume or suction, over that at contact
+    liquid: float  # of the volume, over that at contact; of the suction, over γ√(R̄/V)
     bridges: int  # number of bridges that were compared
 
 
+class Places(NamedTuple):
+    """Places in cells: one on each curve, or a row of them in the last axis of what belongs to q."""
+
+    cell: Integers  # (curves, 2): row of the headers, and cell of the size among those of the row
+    q_cell: Integers  # among those of the row
+    pair: Floats  # (curves, 2): control and size, in coordinates of the cell from -1 to 1
+    t: Floats  # q, likewise
+
+    def taken(self, chosen: Integers) -> "Places":
+        """Some of the curves."""
+        return Places(self.cell[chosen], self.q_cell[chosen], self.pair[chosen], self.t[chosen])
+
+
+class Errors(NamedTuple):
+    """Errors on curves: of the rupture distance, and at the places of each curve."""
+
+    rupture: Floats  # (curves,)
+    force: Floats  # (curves, places)
+    liquid: Floats
+
+
 def measure(grid: Grid, task: Task) -> Bound:
-    """Compare a table with exact bridges at random controls, sizes and separations."""
+    """Search a table for its largest errors."""
     random = np.random.default_rng(_SEED)
-    count = _VOLUME_CURVES if task.is_volume else _SUCTION_CURVES
-    low, high = task.sizes
-    near_contact = 1.0 - 10.0 ** random.uniform(-3.5, -1.0, 4)  # where the force of a small volume falls fast
-    q = np.concatenate([[_NEAREST_RUPTURE, 1.0], random.uniform(_NEAREST_RUPTURE, 1.0, 6), near_contact])
-    worst = np.zeros(3)
-    for side in range(task.sides):
-        control = np.exp(random.uniform(math.log(task.low), math.log(task.high), count))
-        share = random.uniform(0.0, 1.0, count)
-        share[::4] = 1.0 - 10.0 ** random.uniform(-6.0, 0.0, share[::4].size)  # next to the largest ratio
-        share[1::8] = 0.0
-        control[:4], share[:4] = np.repeat([task.low, task.high], 2), [0.0, 1.0, 0.0, 1.0]  # and at the corners
-        size = low + (high - low) * share
-        worst = np.maximum(worst, _errors(grid, task, control, size, side, q))
-    force, rupture, liquid = worst.tolist()
-    return Bound(force, rupture, liquid, task.sides * count * q.size)
+    worst, count = np.zeros(3), 0
+    starts: list[list[tuple[Floats, Places]]] = [[], [], []]
+    for places in _all_cells(grid, random):
+        errors = _errors(grid, task, places)
+        count += errors.force.size
+        for kind, each in enumerate((errors.force, errors.rupture[:, None], errors.liquid)):
+            worst[kind] = max(worst[kind], each.max())
+            starts[kind].append(_worst_of(each, places))
+    for kind, found in enumerate(starts):
+        error, places = np.concatenate([each for each, _ in found]), _joined([each for _, each in found])
+        chosen = np.argsort(-error)[:_WORST]
+        largest, compared = _climb(grid, task, kind, error[chosen], places.taken(chosen), random)
+        worst[kind] = max(worst[kind], largest)
+        count += compared
+    force, rupture, liquid = (SAFETY * worst).tolist()
+    return Bound(force, rupture, liquid, count)
 
 
-def _errors(grid: Grid, task: Task, control: Floats, size: Floats, side: int, q: Floats) -> Floats:
-    """Largest errors of force, rupture distance and liquid on curves at random q, contact being the second."""
-    exact = exact_curves(task, control, size, side, q)
-    s = np.sqrt(size) if task.sides == 1 else size
+def _joined(parts: list[Places]) -> Places:
+    cell, q_cell, pair, t = (np.concatenate(fields) for fields in zip(*parts, strict=True))
+    return Places(cell, q_cell, pair, t)
+
+
+def _coordinates(random: np.random.Generator, shape: tuple[int, ...]) -> Floats:
+    """Random places in a cell, dense near its ends, and many at them."""
+    inside = np.cos(math.pi * random.uniform(size=shape))
+    return np.where(random.uniform(size=shape) < _AT_ENDS, np.sign(inside), inside)
+
+
+def _all_cells(grid: Grid, random: np.random.Generator) -> Iterator[Places]:
+    """Curves at the corners and in all cells of control and size, with places in all cells of q in turn; in parts."""
+    rows = np.unique(grid.cuts[:, SIZE_CELLS], return_index=True)[1]  # of those that share their cells, one
+    sizes = grid.cuts[rows, U_COUNT]
+    each = max(_CURVES, -(-_LEAST_CURVES // int(sizes.sum())))
+    cell = np.column_stack(
+        [np.repeat(rows, sizes * each), np.concatenate([np.repeat(np.arange(cells), each) for cells in sizes])]
+    )
+    turn = np.tile(np.arange(each), int(sizes.sum()))
+    for start in range(0, len(cell), _CURVES_AT_ONCE):
+        part = slice(start, start + _CURVES_AT_ONCE)
+        count = len(cell[part])
+        q_cell = (turn[part, None] * _PLACES + np.arange(_PLACES)) % grid.cuts[cell[part, 0], Q_COUNT, None]
+        pair = _coordinates(random, (count, 2))
+        is_corner = turn[part] < len(_CORNERS)
+        pair[is_corner] = _CORNERS[turn[part][is_corner]]
+        yield Places(cell[part], q_cell, pair, _coordinates(random, (count, _PLACES)))
+
+
+def _worst_of(errors: Floats, places: Places) -> tuple[Floats, Places]:
+    """The largest errors, not two on one curve, and their places."""
+    along = errors.argmax(axis=1)
+    largest = np.take_along_axis(errors, along[:, None], 1)[:, 0]
+    chosen = np.argsort(-largest)[:_WORST]
+    at = np.column_stack([chosen, along[chosen]])
+    kept = places.taken(chosen)._replace(q_cell=places.q_cell[at[:, 0], at[:, 1]], t=places.t[at[:, 0], at[:, 1]])
+    return largest[chosen], kept
+
+
+def _climb(
+    grid: Grid, task: Task, kind: int, error: Floats, places: Places, random: np.random.Generator
+) -> tuple[float, int]:
+    """Go from each place to a worse one in its cell, by random steps; return the largest error, and how many tried."""
+    count = 0
+    for width in _WIDTHS:
+        tried = places.taken(np.repeat(np.arange(error.size), _STEPS))
+        pair, t = (np.clip(at + random.normal(0.0, width, at.shape), -1.0, 1.0) for at in (tried.pair, tried.t))
+        tried = tried._replace(pair=pair, t=t)
+        found = _errors(grid, task, tried._replace(q_cell=tried.q_cell[:, None], t=t[:, None]))
+        errors = (found.force[:, 0], found.rupture, found.liquid[:, 0])[kind].reshape(-1, _STEPS)
+        count += errors.size
+        best = np.arange(len(errors)) * _STEPS + errors.argmax(axis=1)
+        is_worse = errors.max(axis=1) > error
+        error = np.maximum(error, errors.max(axis=1))
+        places = places._replace(
+            pair=np.where(is_worse[:, None], pair[best], places.pair), t=np.where(is_worse, t[best], places.t)
+        )
+    return float(error.max()), count
+
+
+def _between(cell: Integers, place: Floats, shift: Integers, first: Integers) -> Floats:
+    """The number w at a coordinate in a cell."""
+    low, high = (((first + cell + side) << shift).view(np.float64) for side in (0, 1))
+    return np.asarray(low + 0.5 * (high - low) * (1.0 + place))
+
+
+def _position(grid: Grid, task: Task, places: Places) -> tuple[Floats, Floats, Floats]:
+    """Control, size and q of places, inside the range that is tabulated."""
+    row, size_cell = places.cell.T
+    line, cut = grid.lines[row], grid.cuts[row]
+    control = np.clip((places.pair[:, 0] - line[:, X0]) / line[:, X1], task.low, task.high)
+    size = np.full(control.size, task.sizes[0])
+    if task.sizes[1] > task.sizes[0]:
+        w = _between(size_cell, places.pair[:, 1], cut[:, U_SHIFT], cut[:, U_FIRST])
+        size = np.clip((w - line[:, U0]) / line[:, U1], *task.sizes)
+    w = _between(places.q_cell, places.t, cut[:, Q_SHIFT, None], cut[:, Q_FIRST, None])
+    return control, size, np.clip((w - line[:, Q0, None]) / line[:, Q1, None], _NEAREST_RUPTURE, 1.0)
+
+
+def _exact(task: Task, pairs: Floats, q: Floats) -> tuple[Floats, Floats]:
+    """Exact forces and liquids, (curves, q, 2), and rupture distances; NaN where there is no bridge."""
+    held = VOLUME if task.is_volume else SUCTION
+    rupture = answer(END, held, np.column_stack([np.zeros(len(pairs)), pairs]))[0][:, 0]
+    gap = rupture[:, None] * (1.0 - q * q)
+    questions = np.column_stack([gap.ravel(), np.repeat(pairs, q.shape[1], axis=0)])
+    states, _ = answer(STABLE, held, questions)
+    force, volume, curvature = states[:, _COLUMNS].T
+    return np.stack([force, curvature if task.is_volume else volume], axis=1).reshape(*q.shape, 2), rupture
+
+
+def _errors(grid: Grid, task: Task, places: Places) -> Errors:
+    """Errors of a table at places; where it holds no bridge and there is one, the error of the liquid is infinite."""
+    control, size, q = _position(grid, task, places)
+    pairs = pairs_of(task, control, size, places.cell[:, 0] // grid.cells)
+    exact, rupture = _exact(task, pairs, np.column_stack([q, np.broadcast_to(_SCALE, (control.size, _SCALE.size))]))
+    gap = rupture[:, None] * (1.0 - q * q)
     with np.errstate(divide="ignore"):
-        radii = (1.0 / (1.0 + s), 1.0 / (1.0 - s))  # of R̄ = 1
-    radius1, radius2 = radii if side == 0 else radii[::-1]
-    gap = exact.rupture[:, None] * (1.0 - q * q)
-    shape, one = gap.shape, np.ones(1)
+        radius1, radius2 = 1.0 / pairs[:, 1], 1.0 / pairs[:, 3]
 
-    def answer(asked: int, columns: int) -> Floats:
+    def answers(asked: int, columns: int) -> Floats:
         each = [np.repeat(operand, columns) for operand in (control, radius1, radius2)]
         out = np.empty(control.size * columns)
         loop = scalar_range if asked == RUPTURE else block_range
-        in_chunks(loop, out.size, _CHUNK, asked, grid, (gap[:, :columns].ravel(), *each, one), out)
+        in_chunks(loop, out.size, _CHUNK, asked, grid, (gap[:, :columns].ravel(), *each, np.ones(1)), out)
         return out.reshape(-1, columns)
 
-    force, liquid = answer(FORCE, shape[1]) / (2.0 * math.pi), answer(LIQUID, shape[1])
-    at_contact = exact.values[:, 1:2]
-    of_force = np.abs(force - exact.values[..., 0]) / at_contact[..., 0]
-    of_liquid = np.abs(liquid - exact.values[..., 1]) / np.abs(at_contact[..., 1])
-    of_rupture = np.abs(answer(RUPTURE, 1)[:, 0] / exact.rupture - 1.0)
-    return np.array([errors.max() for errors in (of_force, of_rupture, of_liquid)])
+    columns = q.shape[1]
+    contact = exact[:, columns]  # the first of the places of the scale
+    largest = np.abs(exact[..., 0]).max(axis=1, keepdims=True)
+    unit = 1.0 / np.sqrt(control[:, None]) if task.is_volume else contact[:, 1:]
+    of_force = np.abs(answers(FORCE, columns) / (2.0 * math.pi) - exact[:, :columns, 0]) / largest
+    of_liquid = np.abs(answers(LIQUID, columns) - exact[:, :columns, 1]) / unit
+    of_rupture = np.abs(answers(RUPTURE, 1)[:, 0] / rupture - 1.0)
+    return Errors(*(np.where(np.isnan(errors), math.inf, errors) for errors in (of_rupture, of_force, of_liquid)))

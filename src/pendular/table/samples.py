@@ -45,10 +45,10 @@ class Sample(NamedTuple):
     is_stretched: bool
 
 
-def _pairs(task: Task, control: Floats, size: Floats, side: int) -> Floats:
+def pairs_of(task: Task, control: Floats, size: Floats, side: int | NDArray[np.int64]) -> Floats:
     """Rows of (control, k1, θ1, k2, θ2) in units of R̄."""
     s = np.sqrt(np.maximum(size, 0.0)) if task.sides == 1 else size
-    larger = 1.0 - s if side == 0 else 1.0 + s
+    larger = np.where(np.equal(side, 0), 1.0 - s, 1.0 + s)
     angle1, angle2 = (np.full(control.size, angle) for angle in task.angles)
     return np.column_stack([control, 2.0 - larger, angle1, larger, angle2])
 
@@ -58,7 +58,7 @@ def exact_curves(task: Task, control: Floats, size: Floats, side: int, q: Floats
     order = np.argsort(q)
     found = Curves(np.empty(control.size), np.empty((control.size, q.size, 2)))
     held = VOLUME if task.is_volume else SUCTION
-    pairs = _pairs(task, control, size, side)
+    pairs = pairs_of(task, control, size, side)
     in_chunks(branch_range, control.size, _CHUNK, held, stretched, pairs, q[order], *found)
     values = np.empty_like(found.values)
     values[:, order] = found.values
@@ -112,7 +112,7 @@ def _solve_panels(task: Task, domain: Domain, edges: Floats, terms: int) -> Pane
     found = exact_curves(task, controls, sizes, domain.side, q, stretched=task.is_volume)
     rupture = found.rupture.reshape(shape)
     values = np.moveaxis(found.values.reshape(*shape, q.size, 2), 4, 3)[..., ::-1]
-    units = rupture.min(axis=(1, 2)), np.abs(values[..., 0, 0]).min(axis=(1, 2))  # the first q is contact
+    units = rupture.min(axis=(1, 2)), np.abs(values[..., 0, :]).max(axis=3).min(axis=(1, 2))
     of_rupture = _to_series(_to_series(rupture, 1), 2)
     of_values = _to_series(_to_series(_to_series(values, 1), 2), 4)
     tails = [_tails(task, of_rupture, of_values[:, :, :, 0], units, axis) for axis in (1, 2)]

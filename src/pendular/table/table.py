@@ -13,8 +13,9 @@ from .._check import angle, as_path, in_range, numbers, one_of, quantity, result
 from .._jit import in_chunks
 from .._warn import warn
 from .arrays import ENERGY, FORCE, LIQUID, RUPTURE, STIFFNESS, block_range, scalar_range
-from .build import build_grid, sample_range
+from .build import build_grid, empty_grid, sample_range
 from .curve import ForceCurve, curve_of
+from .holding import refuse_without_contact
 from .kernels import Grid
 from .measure import Bound, measure
 from .polynomial import aligned
@@ -28,8 +29,8 @@ Floats = NDArray[np.float64]
 _CHUNK = 65536  # contacts that one thread takes at a time
 _RANGES = {"suction": (1e-2, 1e8), "volume": (1e-9, 1.0)}
 # Of the tolerance for one coordinate: what the coordinates do together is known afterwards.
-_SHARES = {"suction": (0.25, 0.1), "volume": (0.35, 0.15)}
-_HOPELESS, _GAIN = 30.0, 0.5  # an error over the tolerance that finer cells do not mend; what they have to gain
+_SHARE, _LEAST_STEP, _MOST_BUILDS = 0.15, 0.5, 5
+_HOPELESS, _AIM = 30.0, 0.7  # an error over the tolerance that finer cells do not mend; what they aim at
 _TOLERANCES = {"suction": 1e-8, "volume": 1e-7}
 _ARRAYS = ("lines", "cuts", "rupture", "force", "liquid")
 _UNITS = {"suction": "Pa", "volume": "m**3"}
@@ -61,8 +62,9 @@ class Table:
     tolerance : float
         Error of the force over the force at contact that was asked, [-].
     bound : Bound
-        Largest errors found on bridges that the table was not made from: ``force`` over the force at contact,
-        ``rupture`` relative, ``liquid`` over that at contact; and how many ``bridges`` were compared.
+        Half as much again as the largest errors that a search of all cells found: ``force`` over the largest force of
+        the bridge, that at contact unless it bulges; ``rupture`` relative; ``liquid`` of a volume over that at contact,
+        of a suction over γ√(R̄/V); and how many ``bridges`` were compared.
     version : str
         Of Pendular.
     grid : Grid
@@ -184,7 +186,7 @@ class Table:
         *,
         out: Floats | None = None,
     ) -> Floats:
-        """Separation at which the bridge breaks, [m]: the fold, or at constant volume its first loss of stability."""
+        """Separation at which the bridge breaks, [m]: the end of its stability; 0 where there is no bridge."""
         return self._ask(RUPTURE, out, 0.0, control, radius1, radius2, surface_tension)
 
     def curve(self, control: float, radius1: float, radius2: float, surface_tension: float) -> ForceCurve:
@@ -296,26 +298,29 @@ def tabulate(
     Returns
     -------
     Table
-        With the error that was measured in ``bound``.
+        With the bound of its error in ``bound``.
 
     Raises
     ------
     ValueError
-        For bad input.
+        For bad input, and for volumes at which some pair of the range holds no bridge at contact.
 
     Warns
     -----
     ToleranceWarning
-        If the error that was measured is larger than what was asked.
+        If the bound of the error is larger than what was asked.
 
     Notes
     -----
     **Validity.** As the exact solver. The bound on the force holds up to 1 - D/D_c = 4e-6; nearer to rupture, where the
     force falls infinitely fast, it is that of a separation off by less than 1e-9 of itself.
 
-    At constant volume and above 31°, the liquid between nearly equal spheres slides to one side before rupture, and the
-    force is no smooth function of their ratio: a table that holds such pairs warns. Ask for ``radius_ratio=(1, 1)``, or
-    for ratios from 1.02 on.
+    Under suction solids with cos θ1 + cos θ2 <= 0 hold no bridge: the force of their table is 0, and so is the rupture
+    distance.
+
+    At constant volume and above 31°, or of a large volume from smaller angles on, the liquid between nearly equal
+    spheres slides to one side before rupture, and the force is no smooth function of their ratio: a table that holds
+    such pairs warns. Ask for ``radius_ratio=(1, 1)``, or for ratios from 1.02 on.
 
     Examples
     --------
@@ -331,7 +336,7 @@ def tabulate(
     in_range("tolerance", np.asarray(wanted), 1e-10, 1e-2)
     pair = float(angles[0]), float(angles[1])
     task = Task(pair, control == "volume", low, high, low_ratio, high_ratio, wanted, 1.0)
-    grid, bound = _build(task, _SHARES[control])
+    grid, bound = _build(task)
     reached_and_asked = (("force", bound.force, wanted), ("rupture distance", bound.rupture, 0.1 * wanted))
     for name, error, asked in reached_and_asked:
         if not error <= asked:
@@ -339,19 +344,24 @@ def tabulate(
     return Table(pair, control, (low, high), (low_ratio, high_ratio), wanted, bound, version("pendular"), grid)
 
 
-def _build(task: Task, shares: tuple[float, ...]) -> tuple[Grid, Bound]:
-    """Build a table, with more cells where its error is too large and they make it smaller."""
+def _build(task: Task) -> tuple[Grid, Bound]:
+    """Build a table, with more cells as long as its error is too large; keep the best."""
+    if task.is_dry:
+        return empty_grid(task), Bound(0.0, 0.0, 0.0, 0)
+    if task.is_volume:
+        refuse_without_contact(task)
     samples = sample_range(task)
-    grid = build_grid(task._replace(share=shares[0]), samples)
+    share = _SHARE
+    grid = build_grid(task._replace(share=share), samples)
     bound = measure(grid, task)
-    for share in shares[1:]:
+    for _ in range(1, _MOST_BUILDS):
         if not task.tolerance < bound.force < _HOPELESS * task.tolerance:
             break
+        share *= max(_LEAST_STEP, _AIM * task.tolerance / bound.force)
         finer = build_grid(task._replace(share=share), samples)
         reached = measure(finer, task)
-        if reached.force > max(task.tolerance, _GAIN * bound.force):
-            break
-        grid, bound = finer, reached
+        if reached.force < bound.force:
+            grid, bound = finer, reached
     return grid, bound
 
 

@@ -1,8 +1,10 @@
 """What a table is made for."""
 
+import math
 from typing import NamedTuple
 
 _RUPTURE_SHARES = {False: 0.003, True: 0.03}  # of the tolerance, under suction and at constant volume, relative
+_LEAST_COSINES = 1e-12  # cos θ1 + cos θ2, which is not quite 0 for two right angles
 
 
 class Task(NamedTuple):
@@ -23,6 +25,11 @@ class Task(NamedTuple):
         return _RUPTURE_SHARES[self.is_volume] * self.tolerance
 
     @property
+    def is_dry(self) -> bool:
+        """Whether the solids hold no bridge at all: under suction they have to be wetted."""
+        return not self.is_volume and holds_none(self.angles)
+
+    @property
     def sides(self) -> int:
         """Two if it matters which of the solids is the smaller."""
         return 1 if self.angles[0] == self.angles[1] else 2
@@ -32,3 +39,8 @@ class Task(NamedTuple):
         """Range of the size variable u."""
         low, high = ((1.0 - 1.0 / ratio) / (1.0 + 1.0 / ratio) for ratio in (self.low_ratio, self.high_ratio))
         return (low * low, high * high) if self.sides == 1 else (low, high)
+
+
+def holds_none(angles: tuple[float, float]) -> bool:
+    """Whether no suction holds a bridge between solids of these contact angles."""
+    return math.cos(angles[0]) + math.cos(angles[1]) <= _LEAST_COSINES
