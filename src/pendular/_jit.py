@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ._cache import keep_on_disk
 
-__all__ = ["element", "in_chunks", "kernel", "summing_kernel"]
+__all__ = ["constants", "element", "in_chunks", "kernel", "summing_kernel"]
 
 # Sums may be added up in any order, several at once; NaN, infinity and every other rule of arithmetic stay.
 _ANY_ORDER = {"reassoc", "contract"}
@@ -35,6 +35,11 @@ def _compiled(function: Callable[..., Any], fastmath: bool | set[str]) -> Any:
     if dispatcher is not function:  # it is with the compiler off
         keep_on_disk(dispatcher)
     return dispatcher
+
+
+def constants(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Numbers that a kernel looks up."""
+    return values
 
 
 @kernel

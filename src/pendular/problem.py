@@ -15,6 +15,7 @@ from .exact.batch import FAILED, FOUND
 from .exact.equations import SUCTION, VOLUME
 from .exact.follow import BRANCH_ENDS, FOLDS
 from .exact.state import State
+from .few import by_cost
 from .liquid import Liquid, suction_from_humidity
 from .pair import Pair, check_pair
 from .result import FIELDS, Bridge
@@ -135,13 +136,15 @@ def _refuse_beyond_domain(control: Control, value: Floats, mean_radius: Floats, 
 
 def solve(problem: Problem, asked: Asked, limit: Limit = "stability") -> Bridge:
     """Answer all rows."""
-    states, statuses = batch.answer(_ASKED[asked], problem.held, problem.rows, _LIMITS[limit])
+    answer = by_cost("batch", "answer", len(problem.rows))
+    states, statuses = answer(_ASKED[asked], problem.held, problem.rows, _LIMITS[limit])
     return restore(problem, states, statuses, ())
 
 
 def trace(problem: Problem, points: int, limit: Limit) -> Bridge:
     """Answer all rows with whole curves, of so many points each."""
-    states, statuses = batch.draw(problem.held, problem.rows, points, _LIMITS[limit])
+    draw = by_cost("batch", "draw", len(problem.rows))
+    states, statuses = draw(problem.held, problem.rows, points, _LIMITS[limit])
     return restore(problem, states, statuses, (points,))
 
 

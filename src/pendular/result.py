@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ._check import whole_number
 from .exact.algebra import Four
-from .exact.meridian import lay_meridian
+from .few import by_cost
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -84,10 +84,11 @@ class Bridge:
         meridian = self._meridian.reshape(-1, 3)
         curvature = np.ravel(np.asarray(self.suction) / self._surface_tension)
         x, y = np.full((2, meridian.shape[0], count), np.nan)
+        lay = by_cost("meridian", "lay_meridian", len(meridian))
         for i, (radius, slope, half_length) in enumerate(meridian):
             if np.isfinite(radius):
                 z = Four(np.log(radius), slope, np.log(half_length), curvature[i] * half_length)
-                lay_meridian(z, x[i], y[i])
+                lay(z, x[i], y[i])
         x, y = x.reshape(*shape, count), y.reshape(*shape, count)
         with np.errstate(invalid="ignore"):
             sagitta = 2.0 * self._solid_radius * np.sin(0.5 * self.half_filling_angle) ** 2

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._jit import in_chunks, kernel
-from .algebra import Four, moved, unit_vector
+from .algebra import moved, unit_vector
 from .clearance import radius_range
 from .ends import lower_end, stable_bridge, unstable_bridge, upper_end
 from .equations import SUCTION, VOLUME, system_at
@@ -31,6 +31,7 @@ from .follow import (
     beyond,
     corrected,
     follow,
+    recorded,
     set_out,
 )
 from .guess import guess_at
@@ -60,8 +61,8 @@ _STIFFNESS, _INDEX = State._fields.index("stiffness"), State._fields.index("unst
 @kernel
 def task_of(row: Rows, control: int) -> Task:
     """The task in a row of questions."""
-    value = row[1] / math.pi if control == VOLUME else row[1]
-    return Task(row[0], value, row[2], row[3], row[4], row[5], control)
+    value = float(row[1]) / math.pi if control == VOLUME else float(row[1])
+    return Task(float(row[0]), value, float(row[2]), float(row[3]), float(row[4]), float(row[5]), control)
 
 
 class End(NamedTuple):
@@ -196,13 +197,8 @@ def _spread(nodes: Nodes, count: int, curve: Curve, states: Rows, skips_first: b
     for i in range(rows):
         place = (count - 1) * (i + (1.0 if skips_first else 0.0)) / rows
         node = min(int(place), count - 2)
-        before = Four(nodes[node, 0], nodes[node, 1], nodes[node, 2], nodes[node, 3])
-        step = Four(
-            nodes[node + 1, 0] - before[0],
-            nodes[node + 1, 1] - before[1],
-            nodes[node + 1, 2] - before[2],
-            nodes[node + 1, 3] - before[3],
-        )
+        before = recorded(nodes, node)
+        step = moved(recorded(nodes, node + 1), -1.0, before)
         z = moved(before, place - node, step)
         if 0.0 < place - node < 1.0:
             z, _steps, _way = corrected(z, curve, unit_vector(step))
@@ -223,7 +219,7 @@ def _thins_out(nodes: Nodes, count: int, curve: Curve) -> int:
     """How many of the nodes of an unstable branch are drawn: up to a thread of liquid."""
     widest = 0.0
     for i in range(count):
-        z = Four(nodes[i, 0], nodes[i, 1], nodes[i, 2], nodes[i, 3])
+        z = recorded(nodes, i)
         least, most = radius_range(z, system_at(z, curve.held, False, False))
         widest = max(widest, most)
         if least < _THREAD * widest and i > 1:

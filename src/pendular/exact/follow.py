@@ -290,6 +290,12 @@ def _next(stance: Stance, step: float, curve: Curve) -> tuple[Stance, Stretch, f
 
 
 @kernel
+def recorded(nodes: Nodes, row: int) -> Four:
+    """The point in a row."""
+    return Four(float(nodes[row, 0]), float(nodes[row, 1]), float(nodes[row, 2]), float(nodes[row, 3]))
+
+
+@kernel
 def follow(stance: Stance, curve: Curve, target: float, stops_at: int, nodes: Nodes) -> Walk:
     """Follow a curve until D meets its target, or what it stops at, or the curve itself ends.
 

@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .._jit import kernel, summing_kernel
+from .._jit import constants, kernel, summing_kernel
 from .algebra import Four
 
 Nodes = NDArray[np.float64]
@@ -31,8 +31,8 @@ _FARTHEST_POLE = 2.5  # over the half width of the panel; beyond that the substi
 _STRAIGHT = 1e-9  # half turn below which an arc is a catenoid
 _SMALL_TURN = 0.1  # below which the slope of sin(x)/x is a series
 
-_NODES_16, _WEIGHTS_16 = np.polynomial.legendre.leggauss(16)
-_NODES_24, _WEIGHTS_24 = np.polynomial.legendre.leggauss(24)
+_NODES_16, _WEIGHTS_16 = map(constants, np.polynomial.legendre.leggauss(16))
+_NODES_24, _WEIGHTS_24 = map(constants, np.polynomial.legendre.leggauss(24))
 
 
 class Turn(NamedTuple):
@@ -191,7 +191,7 @@ def node_at(real: float, imag: float, h: float, cut: Cut, x: float, weight: floa
 def _sum_length(real: float, imag: float, eta: float, cut: Cut, x: Nodes, weight: Nodes) -> Sums:
     """Length and its rates over a cut."""
     length = by_real = by_imag = by_eta = 0.0
-    for j in range(x.size):
+    for j in range(len(x)):
         zr, zi, ds, v, w, p = node_at(real, imag, 0.5 * eta, cut, x[j], weight[j])
         inverse = 1.0 / math.sqrt(zr * zr + zi * zi)
         square = inverse * inverse
@@ -211,7 +211,7 @@ def _sum_both(real: float, imag: float, eta: float, cut: Cut, x: Nodes, weight: 
     """Length and volume with their rates over a cut."""
     length = by_real = by_imag = by_eta = 0.0
     volume = v_real = v_imag = v_eta = 0.0
-    for j in range(x.size):
+    for j in range(len(x)):
         zr, zi, ds, v, w, p = node_at(real, imag, 0.5 * eta, cut, x[j], weight[j])
         square = zr * zr + zi * zi
         inverse = 1.0 / math.sqrt(square)
@@ -237,7 +237,7 @@ def _sum_both(real: float, imag: float, eta: float, cut: Cut, x: Nodes, weight: 
 def _sum_tensor(real: float, imag: float, eta: float, cut: Cut, x: Nodes, weight: Nodes) -> tuple[float, float]:
     """∫Y cos²φ ds and ∫Y sin²φ ds over a cut, in units of τ²."""
     across = axial = 0.0
-    for j in range(x.size):
+    for j in range(len(x)):
         zr, zi, ds, _v, _w, _p = node_at(real, imag, 0.5 * eta, cut, x[j], weight[j])
         share = ds / math.sqrt(zr * zr + zi * zi)
         across += share * zr * zr
@@ -418,7 +418,7 @@ def lay_meridian(z: Four, place: Nodes, radius: Nodes) -> None:
         if i == last:
             break
         advance = 0.0
-        for j in range(_NODES_16.size):
+        for j in range(len(_NODES_16)):
             between = share + (1.0 + _NODES_16[j]) / last
             zeta = place_after(middle, length, between, turn_of(z.turn * between)).zeta
             advance += _WEIGHTS_16[j] * zeta.real / abs(zeta)

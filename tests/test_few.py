@@ -1,0 +1,67 @@
+"""The exact solver as plain Python: the same answers as compiled, and no compiler for a few of them."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import pendular as pl
+from pendular.exact import batch
+from pendular.exact.equations import SUCTION, VOLUME
+from pendular.exact.state import State
+from pendular.few import by_cost
+
+SEED = 20261129
+ASKED = {"stable": batch.STABLE, "unstable": batch.UNSTABLE, "rupture": batch.RUPTURE, "lower": batch.LOWER_END}
+FLAT = {"stiffness"}  # infinite at the end of a branch, and steep next to it
+
+
+def questions(control):
+    """Random pairs, a fifth of them mirror images, at a small part of their scale apart."""
+    print(f"seed {SEED}")
+    random = np.random.default_rng(SEED + control)
+    count = 12
+    k2, angles = random.uniform(0.0, 1.0, count), np.radians(random.uniform(0.0, 90.0, (2, count)))
+    k2[:3], angles[1, :3] = 1.0, angles[0, :3]
+    value = 10.0 ** (random.uniform(-8, 0, count) if control == VOLUME else random.uniform(-2, 4, count))
+    gap = 0.2 * np.cbrt(value) if control == VOLUME else 0.1 / (1.0 + value)
+    return np.column_stack([gap, value, np.ones(count), angles[0], k2, angles[1]])
+
+
+@pytest.mark.parametrize("asked", ASKED)
+@pytest.mark.parametrize("control", [SUCTION, VOLUME])
+def test_plain_and_compiled_agree(control, asked):
+    rows = questions(control)
+    plain, plain_statuses = by_cost("batch", "answer", 1)(ASKED[asked], control, rows)
+    compiled, statuses = batch.answer(ASKED[asked], control, rows)
+    np.testing.assert_array_equal(plain_statuses, statuses)
+    tolerance = 1e-14 if asked == "stable" else 1e-9  # where the slope at the end of a branch vanishes
+    for field in set(State._fields) - FLAT:
+        column = State._fields.index(field)
+        np.testing.assert_allclose(plain[:, column], compiled[:, column], rtol=tolerance, atol=1e-12, err_msg=field)
+
+
+def test_a_few_questions_compile_nothing():
+    """One bridge, one rupture and one curve in a fresh interpreter without a cache."""
+    script = (
+        "import time, pendular as pl\n"
+        "pair, liquid = pl.Pair(1.0, 0.3), pl.Liquid(surface_tension=1.0)\n"
+        "pl.bridge(pair, 0.01, volume=1e-3, liquid=liquid), pl.rupture(pair, suction=1.0, liquid=liquid)\n"
+        "pl.curve(pair, volume=1e-3, liquid=liquid, points=21)\n"
+        "from pendular.exact.batch import bridge_range, curve_range\n"
+        "print(len(bridge_range.signatures), len(curve_range.signatures))\n"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["0", "0"]
+
+
+def test_a_step_out_of_a_domain_is_left_to_the_compiled_solver(monkeypatch):
+    from pendular._plain.exact import batch as plain
+
+    def fail(*_arguments):
+        raise ZeroDivisionError
+
+    monkeypatch.setattr(plain, "answer", fail)
+    bridge = pl.bridge(pl.Pair(1.0, 0.3), 0.01, suction=1.0, liquid=pl.Liquid(surface_tension=1.0))
+    assert bridge.exists
