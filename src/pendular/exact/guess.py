@@ -120,17 +120,34 @@ def guess_at_volume(held: Held, separation: float, corrected: bool) -> Four:
     )
 
 
+class Torus(NamedTuple):
+    """The balance of a torus between two solids, whose second curvature is 1/Y: D = (C - BY)Y/(HY + β) - k̄Y²."""
+
+    mean: float  # k̄
+    cosines: float  # C = Σ cos θ
+    sines: float  # B = Σ k sin θ
+    bend: float  # β of the half turn x = (π - θ1 - θ2)/2, (x/sin x + cos x)/2
+
+
+@kernel
+def _torus_between(one: Solid, other: Solid) -> Torus:
+    cosines, across = one.cos_angle + other.cos_angle, one.sin_angle + other.sin_angle
+    size = math.hypot(across, cosines)
+    sine, cosine = cosines / size, across / size
+    half_turn = math.atan2(sine, cosine)
+    return Torus(
+        0.5 * (one.curvature + other.curvature),
+        cosines,
+        one.curvature * one.sin_angle + other.curvature * other.sin_angle,
+        0.5 * (half_turn / sine + cosine) if abs(half_turn) > 1e-3 else 1.0,
+    )
+
+
 @kernel
 def _torus_radius(held: Held, separation: float) -> float:
-    """Largest root Y of k̄HY³ + (k̄β + B)Y² + (DH - C)Y + βD = 0, C = Σ cos θ, B = Σ k sin θ, β as of the circle."""
-    one, other, suction = held.first, held.second, held.value
-    mean = 0.5 * (one.curvature + other.curvature)
-    cosines = one.cos_angle + other.cos_angle
-    sines = one.curvature * one.sin_angle + other.curvature * other.sin_angle
-    size = math.hypot(one.sin_angle + other.sin_angle, cosines)
-    sine, cosine = cosines / size, (one.sin_angle + other.sin_angle) / size
-    half_turn = math.atan2(sine, cosine)
-    bend = 0.5 * (half_turn / sine + cosine) if abs(half_turn) > 1e-3 else 1.0
+    """Largest root Y of the torus, k̄HY³ + (k̄β + B)Y² + (DH - C)Y + βD = 0."""
+    mean, cosines, sines, bend = _torus_between(held.first, held.second)
+    suction = held.value
     positive = max(suction, 0.0)
     linear = mean * bend + sines
     room = max(cosines - separation * positive, 0.02 * cosines)
@@ -222,14 +239,8 @@ def rupture_at_volume(held: Held) -> float:
 @kernel
 def rupture_at_suction(held: Held) -> float:
     """Rupture distance at a suction: the largest D = (C - BY) Y/(HY + β) - k̄Y² of the torus of the guess."""
-    one, other, suction = held.first, held.second, max(held.value, 0.0)
-    mean = 0.5 * (one.curvature + other.curvature)
-    cosines = one.cos_angle + other.cos_angle
-    sines = one.curvature * one.sin_angle + other.curvature * other.sin_angle
-    size = math.hypot(one.sin_angle + other.sin_angle, cosines)
-    sine, cosine = cosines / size, (one.sin_angle + other.sin_angle) / size
-    half_turn = math.atan2(sine, cosine)
-    bend = 0.5 * (half_turn / sine + cosine) if abs(half_turn) > 1e-3 else 1.0
+    mean, cosines, sines, bend = _torus_between(held.first, held.second)
+    suction = max(held.value, 0.0)
     radius = cosines / (2.0 * (sines + mean * bend))
     if suction > 0.0:
         radius = min(radius, (0.5 * cosines * bend / (mean * suction * suction)) ** (1.0 / 3.0))
