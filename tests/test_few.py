@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 import pendular as pl
+from pendular import few
+from pendular._plain.exact import batch as plain_batch
 from pendular.exact import batch
 from pendular.exact.equations import SUCTION, VOLUME
 from pendular.exact.state import State
-from pendular.few import by_cost
 
 SEED = 20261129
 ASKED = {"stable": batch.STABLE, "unstable": batch.UNSTABLE, "rupture": batch.RUPTURE, "lower": batch.LOWER_END}
@@ -33,7 +34,7 @@ def questions(control):
 @pytest.mark.parametrize("control", [SUCTION, VOLUME])
 def test_plain_and_compiled_agree(control, asked):
     rows = questions(control)
-    plain, plain_statuses = by_cost("batch", "answer", 1)(ASKED[asked], control, rows)
+    plain, plain_statuses = plain_batch.answer(ASKED[asked], control, rows)
     compiled, statuses = batch.answer(ASKED[asked], control, rows)
     np.testing.assert_array_equal(plain_statuses, statuses)
     tolerance = 1e-14 if asked == "stable" else 1e-9  # where the slope at the end of a branch vanishes
@@ -45,7 +46,7 @@ def test_plain_and_compiled_agree(control, asked):
 def test_a_few_questions_compile_nothing():
     """One bridge, one rupture and one curve in a fresh interpreter without a cache."""
     script = (
-        "import time, pendular as pl\n"
+        "import pendular as pl\n"
         "pair, liquid = pl.Pair(1.0, 0.3), pl.Liquid(surface_tension=1.0)\n"
         "pl.bridge(pair, 0.01, volume=1e-3, liquid=liquid), pl.rupture(pair, suction=1.0, liquid=liquid)\n"
         "pl.curve(pair, volume=1e-3, liquid=liquid, points=21)\n"
@@ -57,11 +58,20 @@ def test_a_few_questions_compile_nothing():
 
 
 def test_a_step_out_of_a_domain_is_left_to_the_compiled_solver(monkeypatch):
-    from pendular._plain.exact import batch as plain
-
     def fail(*_arguments):
         raise ZeroDivisionError
 
-    monkeypatch.setattr(plain, "answer", fail)
+    monkeypatch.setattr(few, "_is_loaded", lambda *_: False)
+    monkeypatch.setattr(few, "_spent", dict.fromkeys(few._spent, 0.0))
+    monkeypatch.setattr(plain_batch, "answer", fail)
     bridge = pl.bridge(pl.Pair(1.0, 0.3), 0.01, suction=1.0, liquid=pl.Liquid(surface_tension=1.0))
     assert bridge.exists
+
+
+def test_who_keeps_asking_is_answered_by_the_compiled_solver(monkeypatch):
+    monkeypatch.setattr(few, "_is_loaded", lambda *_: False)
+    monkeypatch.setattr(few, "_spent", dict.fromkeys(few._spent, 0.0))
+    assert few.by_cost("batch", "answer", 1) is not batch.answer
+    assert few.by_cost("batch", "answer", 10_000) is batch.answer
+    monkeypatch.setattr(few, "_spent", dict.fromkeys(few._spent, 10.0))
+    assert few.by_cost("batch", "answer", 1) is batch.answer
