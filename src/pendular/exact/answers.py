@@ -100,7 +100,8 @@ def answer_to(asked: int, limit: int, task: Task, nodes: Nodes) -> Answer:
         return Answer(end.stance, end.curve, end.event, NO_BRIDGE) if walk.event == ARRIVED else end
     walk, is_known = upper_end(task, limit, nodes)
     end = end_of(walk, is_known)
-    return Answer(end.stance, end.curve, end.event, NO_BRIDGE) if walk.stance.separation < 0.0 else end
+    holds_apart = end.status != FOUND or walk.stance.separation >= 0.0
+    return end if holds_apart else Answer(end.stance, end.curve, end.event, NO_BRIDGE)
 
 
 @kernel

@@ -38,13 +38,6 @@ class System(NamedTuple):
 
 
 @kernel
-def are_equal(held: Held) -> bool:
-    """Whether the two solids are mirror images of each other."""
-    one, other = held.first, held.second
-    return one.curvature == other.curvature and one.contact_angle == other.contact_angle
-
-
-@kernel
 def _rates(by_radius: float, by_slope: float, end: End) -> Four:
     """Rates of a quantity that depends on ln Y and ψ of an end."""
     a, b = end.growth, end.tilt

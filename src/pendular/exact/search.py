@@ -13,6 +13,7 @@ from .guess import guess_at
 from .morph import Task, held_of, morph
 from .newton import newton_to
 
+_LAST_DIGITS = 2e-12
 _EASY_ANGLE = 0.5
 _EASY_VOLUME = 0.2 / math.pi  # V/π over R̄³
 _SHARES = (0.5, 0.2, 0.8, 0.1, 0.35, 0.0, 1.2, 0.05, 0.02)  # of the natural separation, where to look
@@ -30,8 +31,12 @@ def at_separation(task: Task, separation: float) -> Task:
 
 @kernel
 def is_symmetric(task: Task) -> bool:
-    """Whether the two solids are mirror images."""
-    return task.curvature1 == task.curvature2 and task.angle1 == task.angle2
+    """Whether the two solids are mirror images, but for the last digits of a radius or an angle."""
+    larger = max(task.curvature1, task.curvature2)
+    return (
+        abs(task.curvature1 - task.curvature2) <= _LAST_DIGITS * larger
+        and abs(task.angle1 - task.angle2) <= _LAST_DIGITS
+    )
 
 
 @kernel

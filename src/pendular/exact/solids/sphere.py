@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 from ..._jit import kernel
 
+_ROUNDING = 1e-13  # of a sine
 _PAST_EQUATOR = -0.5  # cos δ below which h = (1 - cos δ)/k is the accurate form
 
 
@@ -80,7 +81,7 @@ def half_filling_angle(solid: Solid, radius: float, cos_slope: float, sin_slope:
     if solid.curvature == 0.0:
         return 0.0 if cosine > 0.0 else math.pi
     # at the contact sin δ is kY, which has all digits where δ is small
-    return math.atan2(solid.curvature * radius if sine > 0.0 else sine, cosine)
+    return math.atan2(solid.curvature * radius if sine > -_ROUNDING else sine, cosine)
 
 
 @kernel
