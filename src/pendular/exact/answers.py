@@ -106,9 +106,15 @@ def answer_to(asked: int, limit: int, task: Task, nodes: Nodes) -> Answer:
 
 @kernel
 def holds_nothing(task: Task) -> bool:
-    """Whether no stable bridge is possible at any separation: under suction the solids have to be wetted."""
+    """Whether no stable bridge is possible at any separation.
+
+    Under suction the solids have to be wetted; and no catenoid, of suction 0, runs out along a plane.
+    """
+    if task.control != SUCTION or task.value < 0.0:
+        return False
     wetting = math.cos(task.angle1) + math.cos(task.angle2)
-    return task.control == SUCTION and task.value >= 0.0 and not wetting > _ROUNDING
+    floods = task.curvature1 + task.angle1 == 0.0 or task.curvature2 + task.angle2 == 0.0
+    return not wetting > _ROUNDING or (task.value == 0.0 and floods)
 
 
 @kernel
