@@ -113,14 +113,15 @@ def test_points_against_the_exact_solver(paper, ratio, theta):
         pl.bridge(spheres(ratio, theta), 2.0 * half, suction=suction, liquid=UNIT, branch=branch)
         for branch in ("stable", "unstable")
     ]
-    # Beside the fold a rounding error of D is a root of it in λ.
+    # Beside the fold a rounding error of D is a root of it in λ; and where the gap is small beside the contact circle,
+    # the rounding error of a slope is one of the gap.
     off = [np.where(b.exists, np.abs(b.force / (2.0 * np.pi * force) - 1.0), np.inf) for b in answers]
-    assert np.quantile(np.min(off, axis=0), 0.95) < 1e-12
+    assert np.quantile(np.min(off, axis=0), 0.95) < 1e-10
     assert np.min(off, axis=0).max() < 1e-6
     nearer = np.argmin(off, axis=0)
     for name, expected in (("volume", volume), ("surface_energy", energy)):
         measured = np.where(nearer == 0, *(getattr(b, name) for b in answers))
-        assert np.quantile(np.abs(measured - expected) / (area if name == "surface_energy" else volume), 0.95) < 1e-11
+        assert np.quantile(np.abs(measured - expected) / (area if name == "surface_energy" else volume), 0.95) < 1e-10
 
 
 def test_parts_add_up(paper):

@@ -72,7 +72,7 @@ def columns(bridge: Bridge) -> list[Column]:
     >>> import pendular as pl
     >>> grains, water = pl.Pair(radius=50e-6, contact_angle=0.0), pl.Liquid(surface_tension=0.0728)
     >>> answer = columns(pl.bridge(grains, 1e-6, suction=20e3, liquid=water))
-    >>> [column.name for column in answer][8:10]
+    >>> [column.name for column in answer][10:12]
     ['contact_radius_1', 'contact_radius_2']
     """
     return [column for name, unit in UNITS.items() for column in _apart(name, unit, getattr(bridge, name))]
