@@ -85,9 +85,9 @@ def unseen(table, count, seed):
     print(f"seed {seed}")
     random = np.random.default_rng(seed)
     reduced = np.clip(np.exp(random.uniform(*np.log(table.reduced), count)), *table.reduced)
-    least = 1.0 / table.radius_ratio[1]
-    ratio = 1.0 - (1.0 - least) * random.uniform(0.0, 1.0, count) ** random.choice([0.3, 1.0, 3.0], count)
-    for place, value in ((0, least), (1, 1.0 / table.radius_ratio[0])):
+    least, most = 1.0 / table.radius_ratio[1], 1.0 / table.radius_ratio[0]
+    ratio = most - (most - least) * random.uniform(0.0, 1.0, count) ** random.choice([0.3, 1.0, 3.0], count)
+    for place, value in ((0, least), (1, most)):
         ratio[place::16] = value
     reduced[2::16], reduced[3::16] = table.reduced
     with np.errstate(divide="ignore"):

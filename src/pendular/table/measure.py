@@ -41,7 +41,7 @@ from .task import Task
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-SAFETY = 1.5  # the stated bound over the largest error that the search finds
+SAFETY = 1.75  # the stated bound over the largest error that the search finds
 _SEED = 20260
 _NEAREST_RUPTURE = 0.002  # in q: 1 - D/D_c = 4e-6
 _CORNERS = np.array([[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]])  # of a cell of control and size
