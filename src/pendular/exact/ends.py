@@ -29,13 +29,13 @@ from .follow import (
     follow,
     set_out,
     stance_at,
+    stance_of,
     with_unstable,
 )
 from .guess import guess_at, rupture_at_suction, rupture_at_volume
 from .morph import Task, held_of
 from .newton import held_target, newton_to
 from .search import anchor, is_symmetric
-from .stability import ladder_at
 
 _NEXT_TO_RUPTURE = 0.85  # of the estimate, where to start
 _MOST_STARTS, _MOST_STEPS = 4, 14
@@ -90,18 +90,7 @@ def _glance(z: Four, curve: Curve, fine: bool) -> Glance:
         held_target(row, held),
         0.0,
     )
-    tangent = scaled(curve.hand, along)
-    ladder = ladder_at(z, system)
-    stance = Stance(
-        z,
-        tangent,
-        system.separation.value,
-        dot(tangent, system.separation.rates) * math.exp(-z.log_length),
-        ladder.at_suction if held.control == SUCTION else ladder.at_volume,
-        system.contact2.rates.slope if curve.symmetric else 1.0,
-        1.0,
-    )
-    return Glance(way, stance)
+    return Glance(way, stance_of(z, system, scaled(curve.hand, along), 1.0, curve))  # of its opening the end is asked
 
 
 @kernel

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from .._jit import kernel
 from .algebra import Four, dot, largest, minors, moved, normal, scaled, solve4, unit_vector
 from .clearance import opening_of
-from .equations import SUCTION, VOLUME, Held, first_row, held_row, system_at
+from .equations import SUCTION, VOLUME, Held, System, first_row, held_row, system_at
 from .stability import ladder_at
 
 Nodes = NDArray[np.float64]
@@ -77,15 +77,21 @@ def stance_at(z: Four, curve: Curve) -> Stance:
     system = system_at(z, held, True, True)
     rows = minors(first_row(z, system, symmetric).rates, system.contact2.rates)
     tangent = scaled(curve.hand, unit_vector(normal(rows, held_row(z, system, held).rates)))
+    return stance_of(z, system, tangent, opening_of(z, system, held), curve)
+
+
+@kernel
+def stance_of(z: Four, system: System, tangent: Four, opening: float, curve: Curve) -> Stance:
+    """The bridge at a point whose system and tangent are known."""
     ladder = ladder_at(z, system)
     return Stance(
         z,
         tangent,
         system.separation.value,
         dot(tangent, system.separation.rates) * math.exp(-z.log_length),
-        ladder.at_suction if held.control == SUCTION else ladder.at_volume,
-        system.contact2.rates.slope if symmetric else 1.0,
-        opening_of(z, system, held),
+        ladder.at_suction if curve.held.control == SUCTION else ladder.at_volume,
+        system.contact2.rates.slope if curve.symmetric else 1.0,
+        opening,
     )
 
 
