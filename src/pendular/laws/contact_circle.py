@@ -34,12 +34,6 @@ def contact_at(wetted_arc: float, k: float, theta: float) -> Contact:
 
 
 @kernel
-def force_at(contact: Contact, curvature: float) -> float:
-    """λ = Y sin(δ+θ) + H Y²/2, the first integral at the contact."""
-    return contact.radius * (contact.cos_slope + 0.5 * curvature * contact.radius)
-
-
-@kernel
 def force_rate(contact: Contact, curvature: float, k: float) -> float:
     """∂λ/∂a at fixed H: sin(2δ+θ) + H Y cos δ. It vanishes where the two contact circles of one λ merge."""
     # sin(2δ+θ) = sin δ cos β + cos δ sin β with β = δ + θ
