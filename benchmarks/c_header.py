@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import pendular as pl
-from pendular.dem.c_header import c_header
+from pendular.codes.c_header import c_header
 
 Floats = NDArray[np.float64]
 

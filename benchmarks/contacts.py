@@ -18,9 +18,9 @@ from numba import get_num_threads, njit
 from scipy.interpolate import RegularGridInterpolator
 
 import pendular as pl
-from pendular._jit import in_chunks
 from pendular.exact import batch as exact
 from pendular.exact.equations import SUCTION
+from pendular.ground.compile import in_chunks
 from pendular.laws import willett2000, zhao2020
 
 PAGE = Path(__file__).parent.parent / "docs" / "speed.md"

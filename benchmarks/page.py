@@ -47,7 +47,7 @@ def served() -> Iterator[tuple[str, float]]:
     command = [
         sys.executable,
         "-c",
-        "from pendular.cli import main; main()",
+        "from pendular.front.cli import main; main()",
         "explore",
         "--no-browser",
         "--port",

@@ -12,7 +12,7 @@ import numpy as np
 
 import pendular as pl
 from pendular.comparison.plots import comparison_figure
-from pendular.plot import save
+from pendular.show.picture import save
 
 RADIUS = 100e-6
 GLASS_DENSITY, WATER_DENSITY = 2500.0, 998.2  # [kg/m³]

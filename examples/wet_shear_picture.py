@@ -25,8 +25,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 import pendular as pl
-from pendular.colours import ACCENT, FAINT, GRAIN, GRAIN_EDGE, HAIR, INK, LIQUID, LIQUID_EDGE
-from pendular.plot import save
+from pendular.show.colours import ACCENT, FAINT, GRAIN, GRAIN_EDGE, HAIR, INK, LIQUID, LIQUID_EDGE
+from pendular.show.picture import save
 
 SUCTIONS = (10e3, 40e3, 160e3)  # [Pa]
 LOAD, SPEED, DIAMETER, DENSITY = 1e3, 0.02, 100e-6, 2500.0  # as in wet_shear.py

@@ -12,7 +12,7 @@ from pathlib import Path
 from tools.code_blocks import Block, code_blocks, commands
 from tools.site_parts import run_script
 
-from pendular.cli import main
+from pendular.front.cli import main
 
 ROOT = Path(__file__).parents[1]
 

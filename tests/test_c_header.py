@@ -10,8 +10,8 @@ import pytest
 from benchmarks.c_header import CPP, WARNINGS, C, compiled, contacts, has_compiler
 
 import pendular as pl
-from pendular.cli import main
-from pendular.dem.c_header import LARGEST, c_header
+from pendular.codes.c_header import LARGEST, c_header
+from pendular.front.cli import main
 
 SEED = 71
 COUNT = 100_000

@@ -11,11 +11,11 @@ from shutil import copy
 import pytest
 
 import pendular
-from pendular import _cache
+from pendular.ground import cache as _cache
 
 PACKAGE = Path(pendular.__file__).parent
 OWN_KERNEL = """
-from pendular._jit import element, kernel
+from pendular.ground.compile import element, kernel
 from factor import FACTOR
 import numpy as np
 

@@ -7,7 +7,7 @@ import numpy as np
 import pint
 import pytest
 
-from pendular._check import angle, broadcast, in_range, quantity, scalar
+from pendular.ground.check import angle, broadcast, in_range, quantity, scalar
 
 UNITS = pint.UnitRegistry()
 

@@ -15,8 +15,8 @@ import pytest
 from typer.main import get_command
 
 import pendular as pl
-from pendular.bridges import FIELDS
-from pendular.cli import app, main
+from pendular.ask.face import FIELDS
+from pendular.front.cli import app, main
 
 GRAINS = ("--radius", "50um", "--contact-angle", "20")
 SUCTION = (*GRAINS, "--suction", "20kPa")
@@ -512,7 +512,7 @@ def process(code: str) -> subprocess.CompletedProcess[str]:
 def test_help_imports_nothing_heavy():
     code = """
 import sys
-from pendular.cli import app, main
+from pendular.front.cli import app, main
 try:
     main(["--help"])
 finally:
@@ -524,7 +524,7 @@ finally:
 
 
 def test_bad_input_ends_the_process_without_a_traceback():
-    done = process("from pendular.cli import main; main(['bridge', '--radius', '50', '--separation', '1um'])")
+    done = process("from pendular.front.cli import main; main(['bridge', '--radius', '50', '--separation', '1um'])")
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == "pendular: radius: '50' has no unit; write it like 50um\n"
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import pendular as pl
-from pendular.cli import main
+from pendular.front.cli import main
 from pendular.laws import laws
 
 GRAINS = ("compare", "--radius", "50um", "--contact-angle", "20", "--volume", "1pL")

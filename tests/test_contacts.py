@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import pendular as pl
-from pendular.contacts import BridgeState, contact_energy, contact_forces
+from pendular.packing.forces import BridgeState, contact_energy, contact_forces
 
 ANGLE, TENSION = 0.35, 0.0728
 WATER = pl.Liquid(surface_tension=TENSION)
@@ -137,7 +137,7 @@ def test_forces_are_exactly_opposite_and_added_in_the_order_of_the_particles(tab
 
 
 def test_neither_threads_nor_the_order_of_the_list_change_a_bit(tables, monkeypatch):
-    monkeypatch.setattr("pendular.contacts._CHUNK", 100)  # several chunks of a small list
+    monkeypatch.setattr("pendular.packing.forces._CHUNK", 100)  # several chunks of a small list
     monkeypatch.setattr("pendular.table.table._CHUNK", 100)
     rng, pairs, positions, radii = packing(13, cells=8)
     results = []

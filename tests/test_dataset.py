@@ -14,9 +14,9 @@ from distributed import LocalCluster
 
 import pendular as pl
 from oracles.young_laplace import EXACT, Solid, connect, state
-from pendular import dataset as ds
-from pendular import interpolation
-from pendular.dataset_grid import GridPoint, Solids, grid_point
+from pendular.dataset import base as ds
+from pendular.dataset import interpolation
+from pendular.dataset.grid import GridPoint, Solids, grid_point
 
 UNIT = pl.Liquid(surface_tension=1.0)
 SMALL = {"shape": (24, 16), "size_ratio": (1.0, 8.0), "contact_angle": np.deg2rad([0.0, 40.0])}

@@ -18,8 +18,8 @@ from documents import (
     command_output,
     python_runs,
 )
+from pendular.ask.result import FIELDS
 from pendular.laws import laws
-from pendular.result import FIELDS
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"

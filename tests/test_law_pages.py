@@ -6,7 +6,7 @@ import shlex
 import pytest
 from tools import law_pages
 
-from pendular.cli import main
+from pendular.front.cli import main
 from pendular.laws import laws
 
 

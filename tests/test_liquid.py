@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pendular.liquid import (
+from pendular.ask.liquid import (
     KelvinWarning,
     Liquid,
     _identify,
@@ -334,7 +334,7 @@ def test_no_value_is_extrapolated(name):
 
 def test_import_costs_no_library():
     program = (
-        "import sys, pendular.liquid; print([m for m in ('thermo', 'chemicals', 'pint', 'pandas') if m in sys.modules])"
+        "import sys, pendular.ask.liquid; print([m for m in ('thermo', 'chemicals', 'pint', 'pandas') if m in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"

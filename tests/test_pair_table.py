@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import pendular as pl
-from pendular.cli import main
-from pendular.dem.pair_table import pair_table, pair_table_text
+from pendular.codes.pair_table import pair_table, pair_table_text
+from pendular.front.cli import main
 
 GRAINS = pl.Pair((50e-6, 80e-6), math.radians(20))
 WATER = pl.Liquid(surface_tension=0.0728)

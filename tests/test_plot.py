@@ -10,7 +10,7 @@ import pytest
 from matplotlib.patches import Polygon
 
 import pendular as pl
-from pendular.plot import figure, save
+from pendular.show.picture import figure, save
 
 WATER = pl.Liquid.water()
 PLANE = math.inf

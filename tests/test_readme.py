@@ -8,7 +8,7 @@ import pytest
 from tools.code_blocks import code_blocks, section
 
 from documents import assert_python_prints_what_it_says
-from pendular.cli import main
+from pendular.front.cli import main
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import pendular as pl
-from pendular import problem
+from pendular.ask import problem
 from pendular.table.measure import Bound
 
 GRAINS = pl.Pair(50e-6, 0.3)

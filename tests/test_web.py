@@ -14,14 +14,14 @@ import numpy as np
 import pytest
 
 import pendular as pl
-from pendular.cli import main
-from pendular.web.answer import answer_to
-from pendular.web.curve_chart import curve_chart, law_style
-from pendular.web.fragments import error_cells, headline, numbers
-from pendular.web.pair_picture import pair_svg
-from pendular.web.take_away import command_line, curve_csv, picture_svg, python_text
-from pendular.web.track import Track, held_instead, track_of, value_of, written
-from pendular.web.view import PLOTTED, View, address, view_at
+from pendular.front.cli import main
+from pendular.front.explorer.answer import answer_to
+from pendular.front.explorer.curve_chart import curve_chart, law_style
+from pendular.front.explorer.fragments import error_cells, headline, numbers
+from pendular.front.explorer.pair_picture import pair_svg
+from pendular.front.explorer.take_away import command_line, curve_csv, picture_svg, python_text
+from pendular.front.explorer.track import Track, held_instead, track_of, value_of, written
+from pendular.front.explorer.view import PLOTTED, View, address, view_at
 
 SEED = 4
 PLACES = {name: place for place, name in enumerate(pl.laws)}

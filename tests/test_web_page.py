@@ -20,8 +20,8 @@ import pytest
 from playwright import sync_api as playwright
 
 import pendular as pl
-from pendular.cli import main
-from pendular.units import read, show
+from pendular.front.cli import main
+from pendular.ground.units import read, show
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 pytestmark = [pytest.mark.long, pytest.mark.skipif(CHROMIUM is None, reason="no chromium on the path")]
@@ -36,7 +36,7 @@ MINUS = "\u2212"
 def url():
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
-    code = f"from pendular.cli import main; main(['explore', '--no-browser', '--port', '{port}'])"
+    code = f"from pendular.front.cli import main; main(['explore', '--no-browser', '--port', '{port}'])"
     # NiceGUI behaves otherwise where it finds itself under pytest.
     environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
     with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.DEVNULL, env=environment) as server:

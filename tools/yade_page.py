@@ -13,8 +13,8 @@ from pathlib import Path
 
 from tools import yade_default_grid
 
-from pendular.cli import main as pendular
-from pendular.dem import yade
+from pendular.codes import yade
+from pendular.front.cli import main as pendular
 
 DOCS = Path(__file__).parents[1] / "docs"
 PAGE = DOCS / "yade.md"
@@ -76,7 +76,7 @@ READING = """
 HABITS = """
 ## What YADE does with tables
 
-Seen in YADE 2023.02a; the emulation of its reader, `pendular.dem.yade.yade_bridge`, agrees with it to ten digits in
+Seen in YADE 2023.02a; the emulation of its reader, `pendular.codes.yade.yade_bridge`, agrees with it to ten digits in
 force, volume, both angles and both tensor components, zeros included (`tests/test_yade_run.py`).
 
 - Without the files it warns and goes on with no force at all, and ends with status 0.
@@ -113,7 +113,7 @@ distance is shorter than a step of the gap, and YADE breaks the bridge at the ne
 import math
 from pathlib import Path
 
-from pendular.dem import yade
+from pendular.codes import yade
 
 done = yade.export(Path("tables"), math.radians(20), tolerance=1e-2)
 print(done.audit.is_within(1e-2))

@@ -14,7 +14,7 @@ import numpy as np
 from lammps import lammps
 
 import pendular as pl
-from pendular.dem.lammps import couple
+from pendular.codes.lammps import couple
 
 TENSION = 0.0728
 RADIUS, SPACING, CELLS = 100e-6, 205e-6, 6

@@ -5,7 +5,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._check import angle, in_range, one_of, quantity, scalar
+from ..ground.check import angle, in_range, one_of, quantity, scalar
 from ..laws import Law, laws
 from .sample import exact_sample, law_errors
 

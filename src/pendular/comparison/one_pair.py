@@ -5,13 +5,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._check import whole_number
-from ..bridges import bridge, rupture
+from ..ask.face import bridge, rupture
+from ..ask.liquid import Liquid
+from ..ask.other_control import other_control_star
+from ..ask.pair import Pair, check_pair
+from ..ask.problem import Control, control_of, control_star, reduce
+from ..ground.check import whole_number
 from ..laws import Law, force_star, laws, rupture_star, rupture_work_star
-from ..liquid import Liquid
-from ..other_control import other_control_star
-from ..pair import Pair, check_pair
-from ..problem import Control, control_of, control_star, reduce
 from .domain import outside_range, why_silent
 from .sample import ControlName, rupture_work
 

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..colours import FAINT, GRAIN, GRAIN_EDGE, HAIR, INK, LIQUID
+from ..ground.units import Scale, scale_of, show
 from ..laws import laws
-from ..units import Scale, scale_of, show
+from ..show.colours import FAINT, GRAIN, GRAIN_EDGE, HAIR, INK, LIQUID
 from .error_maps import ErrorMap
 from .one_pair import Comparison, LawAnswer
 from .sample import NO_BRIDGE
@@ -61,7 +61,7 @@ def comparison_figure(comparison: Comparison, *, title: str = "", subtitle: str 
     Returns
     -------
     matplotlib.figure.Figure
-        Tied to no window; see `pendular.plot.save`.
+        Tied to no window; see `pendular.show.picture.save`.
     """
     from matplotlib.figure import Figure
 
@@ -252,7 +252,7 @@ def map_figure(found: ErrorMap) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Tied to no window; see `pendular.plot.save`.
+        Tied to no window; see `pendular.show.picture.save`.
     """
     from matplotlib.colors import BoundaryNorm, ListedColormap
     from matplotlib.figure import Figure

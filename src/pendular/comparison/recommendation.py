@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._check import angle, in_range, quantity, scalar
+from ..ground.check import angle, in_range, quantity, scalar
 from ..laws import Law, laws
 from .domain import why_silent
 from .sample import NO_BRIDGE, ControlName, Sample, exact_sample, law_errors

@@ -8,11 +8,11 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..bridges import bridge, rupture
+from ..ask.face import bridge, rupture
+from ..ask.liquid import Liquid
+from ..ask.pair import Pair
+from ..ask.result import Bridge
 from ..laws import Law, force_star, rupture_star, rupture_work_star
-from ..liquid import Liquid
-from ..pair import Pair
-from ..result import Bridge
 
 __all__ = ["NO_BRIDGE", "Errors", "Sample", "exact_sample", "law_errors", "rupture_work"]
 

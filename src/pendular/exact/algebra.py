@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from .._jit import kernel
+from ..ground.compile import kernel
 
 
 class Four(NamedTuple):

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from .ends import lower_end, stable_bridge, unstable_bridge, upper_end
 from .equations import SUCTION
 from .follow import ARRIVED, ENDED, FOLD, LOST, PITCHFORK, Curve, Nodes, Stance, Walk

@@ -9,7 +9,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from .._jit import in_chunks, kernel
+from ..ground.compile import kernel
+from ..ground.rows import Own, entry, over_rows
+from .algebra import Four
 from .answers import (
     FAILED,
     FOUND,
@@ -26,17 +28,23 @@ from .answers import (
 )
 from .equations import SUCTION, VOLUME
 from .follow import BRANCH_ENDS, FOLD
+from .meridian import lay_meridian
 from .morph import Task
 from .state import State
 from .tracing import trace
 
-__all__ = ["FAILED", "FOUND", "LOWER_END", "NO_BRIDGE", "RUPTURE", "STABLE", "UNSTABLE", "answer", "draw"]
+__all__ = ["FAILED", "FOUND", "LOWER_END", "NO_BRIDGE", "RUPTURE", "STABLE", "UNSTABLE", "answer", "draw", "lay"]
 
 Rows = NDArray[np.float64]
 Statuses = NDArray[np.int8]
 
 _MOST_NODES = 1200
+_NO_NODES = np.empty((0, 4))
 _CHUNK = 1024  # bridges that one thread takes at a time: some milliseconds, against which its start is nothing
+
+
+def _room_for_nodes() -> Rows:
+    return np.empty((_MOST_NODES, 4))
 
 
 @kernel
@@ -46,12 +54,19 @@ def task_of(row: Rows, control: int) -> Task:
     return Task(float(row[0]), value, float(row[2]), float(row[3]), float(row[4]), float(row[5]), control)
 
 
-@kernel
+@entry(plain_cost=5e-3)
 def bridge_range(
-    asked: int, limit: int, control: int, questions: Rows, states: Rows, statuses: Statuses, start: int, stop: int
+    asked: int,
+    limit: int,
+    control: int,
+    questions: Rows,
+    states: Rows,
+    statuses: Statuses,
+    nodes: Rows,
+    start: int,
+    stop: int,
 ) -> None:
-    """Answer the rows from start to stop."""
-    nodes = np.empty((0, 4))
+    """Answer the rows from start to stop; ``nodes`` has none."""
     for i in range(start, stop):
         task = task_of(questions[i], control)
         status = NO_BRIDGE
@@ -75,22 +90,22 @@ def answer(asked: int, control: int, questions: Rows, limit: int = BRANCH_ENDS) 
     """Answer rows of questions on all threads: their states and statuses."""
     count = len(questions)
     states, statuses = np.empty((count, len(State._fields))), np.empty(count, np.int8)
-    in_chunks(bridge_range, count, _CHUNK, asked, limit, control, questions, states, statuses)
+    over_rows(bridge_range, count, _CHUNK, asked, limit, control, questions, states, statuses, _NO_NODES)
     return states, statuses
 
 
-@kernel
+@entry(plain_cost=0.5)
 def curve_range(
     limit: int,
     control: int,
     questions: Rows,
     states: NDArray[np.float64],
     statuses: Statuses,
+    nodes: Rows,
     start: int,
     stop: int,
 ) -> None:
     """Whole curves for the rows from start to stop; ``states`` has an axis of points before that of the fields."""
-    nodes = np.empty((_MOST_NODES, 4))
     for i in range(start, stop):
         task = task_of(questions[i], control)
         status = NO_BRIDGE if holds_nothing(task) else trace(limit, task, states[i], nodes)
@@ -105,7 +120,24 @@ def draw(control: int, questions: Rows, points: int, limit: int = BRANCH_ENDS) -
     """Whole curves for rows of questions, on all threads: (rows, points, fields), and the status of each point."""
     count = len(questions)
     states, statuses = np.empty((count, points, len(State._fields))), np.empty(count, np.int8)
-    in_chunks(curve_range, count, 1, limit, control, questions, states, statuses)
+    over_rows(curve_range, count, 1, limit, control, questions, states, statuses, Own(_room_for_nodes))
     each = np.repeat(statuses[:, None], points, axis=1)
     each[(each == FOUND) & np.isnan(states[..., 0])] = NO_BRIDGE
     return states, each
+
+
+@entry(plain_cost=5e-3)
+def meridian_range(arcs: Rows, place: Rows, radius: Rows, start: int, stop: int) -> None:
+    """Meridians of the rows from start to stop, as radius and slope in the middle, half the length, and H."""
+    for i in range(start, stop):
+        middle, slope, length, curvature = arcs[i]
+        if middle > 0.0 and math.isfinite(middle):
+            z = Four(math.log(middle), float(slope), math.log(length), float(curvature * length))
+            lay_meridian(z, place[i], radius[i])
+
+
+def lay(arcs: Rows, points: int) -> tuple[Rows, Rows]:
+    """Place on the axis from the first end, and radius, of so many points along meridians; NaN where there is none."""
+    place, radius = np.full((2, len(arcs), points), math.nan)
+    over_rows(meridian_range, len(arcs), _CHUNK, arcs, place, radius)
+    return place, radius

@@ -12,7 +12,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from .._jit import kernel
+from ..ground.compile import kernel
+from ..ground.rows import entry
 from .algebra import Four, largest
 from .ends import stable_bridge, upper_end
 from .equations import SUCTION, Held, curvature_of, force_of, system_at
@@ -111,7 +112,7 @@ def _distance(a: Four, b: Four) -> float:
     return largest(Four(a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]))
 
 
-@kernel
+@entry(plain_cost=0.05)
 def branch_range(
     control: int,
     stretched: bool,
@@ -119,14 +120,15 @@ def branch_range(
     q: Vector,
     rupture: Vector,
     values: NDArray[np.float64],
+    nodes: Nodes,
     start: int,
     stop: int,
 ) -> None:
     """Branches at the same q, ascending, for the rows from start to stop.
 
-    Rows of ``pairs`` are (H or V, k1, θ1, k2, θ2). ``values`` has for each row and q the force, and V or H.
+    Rows of ``pairs`` are (H or V, k1, θ1, k2, θ2). ``values`` has for each row and q the force, and V or H;
+    ``nodes`` has room for the meridian at each q.
     """
-    nodes = np.empty((q.size, 4))
     for i in range(start, stop):
         value, k1, angle1, k2, angle2 = pairs[i]
         stretch = stretch_of(value, k1 + k2) if stretched else math.inf

@@ -8,7 +8,7 @@ at.
 
 import math
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from .algebra import Four
 from .equations import Held, System, curvature_of, force_of
 from .meridian import Cut, End, cuts_of, extreme_phases, middle_of, node_at, panel_of, panels_of

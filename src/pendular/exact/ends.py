@@ -8,7 +8,7 @@ one side. From each an unstable branch leaves.
 import math
 from typing import NamedTuple
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from .algebra import Four, dot, largest, minors, moved, normal, scaled, solve4, unit_vector
 from .equations import SUCTION, Held, first_row, held_row, system_at
 from .follow import (

@@ -7,7 +7,7 @@ bridges, the stiffness and the stability.
 import math
 from typing import NamedTuple
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from .algebra import Four
 from .meridian import End, Row, ends_of, measure_arc
 from .solids import Contact, Solid, contact_with

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from .algebra import Four, dot, largest, minors, moved, normal, scaled, solve4, unit_vector
 from .clearance import opening_of
 from .equations import SUCTION, VOLUME, Held, System, first_row, held_row, system_at

@@ -7,7 +7,7 @@ root of the balance of a torus, whose second curvature is 1/Y, corrected once as
 import math
 from typing import NamedTuple
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from .algebra import Four
 from .equations import SUCTION, Held
 from .solids import Solid

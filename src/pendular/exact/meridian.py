@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .._jit import constants, kernel, summing_kernel
+from ..ground.compile import constants, kernel, summing_kernel
 from .algebra import Four
 
 Nodes = NDArray[np.float64]

@@ -8,7 +8,7 @@ that changes most along the curve is kept, and Newton's method finds the other f
 import math
 from typing import NamedTuple
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from .algebra import Four, dot, largest, moved, solve4
 from .equations import VOLUME, Held, held_row, system_at
 from .solids import solid_of

@@ -2,7 +2,7 @@
 
 import math
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from .algebra import Four, largest, moved, solve4
 from .equations import VOLUME, Held, held_row, system_at
 from .meridian import Row

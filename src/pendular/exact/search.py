@@ -5,7 +5,7 @@ First at other separations. Then by a morph from an easy problem: two solids tha
 
 import math
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from .algebra import Four
 from .equations import VOLUME
 from .follow import BRANCH_ENDS, ENDED, LOST, Nodes, Stance, beyond, follow, just_after, set_out

@@ -18,7 +18,7 @@ bridge is unstable exactly where it pushes the solids apart.
 
 from typing import NamedTuple
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from .algebra import Four, joined, minors
 from .equations import System, curvature_rates
 from .meridian import extreme_phases

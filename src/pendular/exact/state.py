@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from .algebra import Four, dot, minors, normal
 from .clearance import is_clear, opening_of
 from .equations import SUCTION, Held, curvature_of, first_row, force_of, force_rates, held_row, system_at

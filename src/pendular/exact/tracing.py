@@ -5,7 +5,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from .algebra import moved, unit_vector
 from .answers import (
     FAILED,

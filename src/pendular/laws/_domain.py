@@ -2,7 +2,7 @@
 
 import math
 
-from .._jit import kernel
+from ..ground.compile import kernel
 
 __all__ = ["mean_angle", "mean_cosine", "one_angle"]
 

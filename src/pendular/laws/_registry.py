@@ -7,7 +7,7 @@ a switch on an integer; it cannot cache a loop over a function that is handed in
 
 import math
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from . import (
     asymptotic,
     asymptotic_rupture,

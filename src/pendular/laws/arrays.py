@@ -5,8 +5,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._check import broadcast, numbers
-from .._jit import element, in_chunks, kernel
+from ..ground.check import broadcast, numbers
+from ..ground.compile import element, in_chunks, kernel
 from ._registry import LAWS, force_star_of, rupture_star_of, rupture_work_star_of
 
 __all__ = ["force_star", "rupture_star", "rupture_work_star"]

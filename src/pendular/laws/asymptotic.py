@@ -15,7 +15,7 @@ and force are exact, so the two sides, which share the force, need not be alike.
 
 import math
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from ._record import ANY_SOLIDS, CONTACT_ANGLE, SEPARATION, SIZE_RATIO, SUCTION, Law
 from .contact_circle import contact_at, force_rate, wetted_arc_of
 

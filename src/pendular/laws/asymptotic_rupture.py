@@ -5,7 +5,7 @@ It is the fold of the theory in `asymptotic`, to the first correction that knows
 
 import math
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from ._record import ANY_SOLIDS, CONTACT_ANGLE, SIZE_RATIO, SUCTION, Law
 from .asymptotic import moments
 

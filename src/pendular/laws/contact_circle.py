@@ -8,7 +8,7 @@ formula below holds for both.
 import math
 from typing import NamedTuple
 
-from .._jit import kernel
+from ..ground.compile import kernel
 
 
 class Contact(NamedTuple):

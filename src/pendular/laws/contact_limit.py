@@ -2,7 +2,7 @@ r"""The force of an infinitely small bridge between touching solids, the number 
 
 import math
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from ._domain import mean_cosine
 from ._record import ANY_SOLIDS, CONTACT_ANGLE, GAP, SIZE_RATIO, SUCTION, Law
 

@@ -6,7 +6,7 @@ half as large; the leading order given here was derived for this library.
 
 import math
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from ._domain import mean_cosine
 from ._record import ANY_SOLIDS, CONTACT_ANGLE, SIZE_RATIO, VOLUME, Law
 

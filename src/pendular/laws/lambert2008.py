@@ -7,7 +7,7 @@ wetted area with the gap.
 
 import math
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from ._domain import mean_cosine
 from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law, Solids
 

@@ -2,7 +2,7 @@ r"""Lian, Thornton and Adams (1993): the rupture distance of a bridge of given v
 
 import math
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from ._domain import mean_angle
 from ._record import CONTACT_ANGLE, SIZE_RATIO, VOLUME, Law, Solids
 

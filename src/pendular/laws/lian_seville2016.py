@@ -6,7 +6,7 @@ half-filling angle at contact.
 
 import math
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from ._domain import one_angle
 from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law, Solids
 from .willett2000 import rupture_of_equal_spheres

@@ -43,7 +43,7 @@ The map of its error is ``docs/images/pendular2026_error.png``.
 
 import math
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from ._record import ANY_SOLIDS, CONTACT_ANGLE, SEPARATION, SIZE_RATIO, SUCTION, Law
 from .asymptotic import moments
 

@@ -5,7 +5,7 @@ In this file :math:`V` is the volume and :math:`D` the gap, reduced by the Derja
 
 import math
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from ._domain import mean_angle
 from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law, Solids
 from .lambert2008 import wetted_radius_squared

@@ -6,7 +6,7 @@ converts from the Derjaguin radius.
 
 import math
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from ._domain import one_angle
 from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law, Solids
 

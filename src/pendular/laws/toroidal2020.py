@@ -9,7 +9,7 @@ With a circle as meridian and :math:`P = |X_c|/Y_c`, :math:`Q = Y_0/Y_c` the geo
 
 import math
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from ._record import CONTACT_ANGLE, SEPARATION, SIZE_RATIO, SUCTION, Law, Solids
 
 __all__ = [

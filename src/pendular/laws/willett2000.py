@@ -9,7 +9,7 @@ second is the first, so that Eq. (16) alone serves all pairs; Eq. (15) stays for
 
 import math
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from ._domain import one_angle
 from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law, Solids
 

@@ -6,7 +6,7 @@ as in the article, which takes half the gap.
 
 import math
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law, Solids
 from .willett2000 import rupture_star
 

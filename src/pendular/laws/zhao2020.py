@@ -7,7 +7,7 @@ so the half gap of the article and the whole gap of the kernels agree there.
 
 import math
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from ._record import CONTACT_ANGLE, SEPARATION, SIZE_RATIO, SUCTION, Law, Solids
 
 __all__ = ["LAW", "force_star", "force_star_given_rupture", "neck_radius_at_contact", "rupture_star"]

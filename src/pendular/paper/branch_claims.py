@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..result import Bridge
+from ..ask.result import Bridge
 from . import sample
 from .claim import Claim
 

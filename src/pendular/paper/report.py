@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import matplotlib as mpl
 
-from .._files import in_one_line, whole
+from ..ground.files import in_one_line, whole
 from .claims import Claim, measure
 from .figures import FIGURES, Drawing
 

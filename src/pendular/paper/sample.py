@@ -9,11 +9,11 @@ from typing import Any, Literal, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..bridges import bridge, curve, rupture
+from ..ask.face import bridge, curve, rupture
+from ..ask.liquid import Liquid
+from ..ask.pair import Pair
+from ..ask.result import Bridge
 from ..laws import force_star, laws, rupture_star, toroidal2020, zhao2020
-from ..liquid import Liquid
-from ..pair import Pair
-from ..result import Bridge
 
 Floats = NDArray[np.float64]
 

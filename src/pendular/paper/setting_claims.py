@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..liquid import Liquid, suction_from_humidity
+from ..ask.liquid import Liquid, suction_from_humidity
 from . import sample
 from .claim import Claim, error, signed, worst
 

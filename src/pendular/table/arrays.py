@@ -10,26 +10,32 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from .._jit import element, kernel
+from ..ground.rows import Own, element, entry, over_rows
 from . import kernels
 from .kernels import Grid, Place, cell_of, if_bridged, liquid_unit, place_of, q_of, reduce_pair
 from .polynomial import CELL, RUPTURE_CELL, in_three, in_two
 
 Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
 Operands = tuple[Floats, Floats, Floats, Floats, Floats]  # separation, control, radius 1, radius 2, surface tension
 
 # What is asked.
 FORCE, LIQUID, STIFFNESS, ENERGY, RUPTURE = range(5)
 
 _BLOCK = 64
+_CHUNK = 65536  # contacts that one thread takes at a time
 
 
-@kernel
-def block_range(asked: int, grid: Grid, x: Operands, out: Floats, start: int, stop: int) -> None:
-    """Forces, or what goes with them, of the contacts from start to stop."""
-    separation, control, radius1, radius2, gamma = asking = np.empty((5, _BLOCK))
-    size, rupture, unit, q, at_x, at_y, at_t = np.empty((7, _BLOCK))
-    row, size_cell, cell = np.empty((3, _BLOCK), np.int64)
+@entry(plain_cost=1e-4)
+def block_range(
+    asked: int, grid: Grid, x: Operands, out: Floats, numbers: Floats, cells: Integers, start: int, stop: int
+) -> None:
+    """Forces, or what goes with them, of the contacts from start to stop, in blocks worked out in numbers and cells."""
+    asking = numbers[:5]
+    separation, control, radius1, radius2, gamma = numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]
+    size, rupture, unit, q = numbers[5], numbers[6], numbers[7], numbers[8]
+    at_x, at_y, at_t = numbers[9], numbers[10], numbers[11]
+    row, size_cell, cell = cells[0], cells[1], cells[2]
     coefficients = grid.force if asked == FORCE else grid.liquid
     beyond = 0.0 if asked == FORCE else math.nan
     for begin in range(start, stop, _BLOCK):
@@ -60,7 +66,7 @@ def block_range(asked: int, grid: Grid, x: Operands, out: Floats, start: int, st
             out[begin + i] = if_bridged(value, separation[i], rupture[i], beyond)
 
 
-@kernel
+@entry(plain_cost=1e-4)
 def scalar_range(asked: int, grid: Grid, x: Operands, out: Floats, start: int, stop: int) -> None:
     """Stiffnesses, energies or rupture distances of the contacts from start to stop."""
     for i in range(start, stop):
@@ -71,3 +77,12 @@ def scalar_range(asked: int, grid: Grid, x: Operands, out: Floats, start: int, s
             out[i] = kernels.stiffness(grid, element(x[0], i), control, radius1, radius2, gamma)
         else:
             out[i] = kernels.energy(grid, element(x[0], i), control, radius1, radius2, gamma)
+
+
+def evaluate(asked: int, grid: Grid, x: Operands, out: Floats) -> None:
+    """Fill ``out`` with what is asked, on all threads; an operand of one element counts for all contacts."""
+    if asked in (FORCE, LIQUID):
+        room = Own(lambda: np.empty((12, _BLOCK))), Own(lambda: np.empty((3, _BLOCK), np.int64))
+        over_rows(block_range, out.size, _CHUNK, asked, grid, x, out, *room)
+    else:
+        over_rows(scalar_range, out.size, _CHUNK, asked, grid, x, out)

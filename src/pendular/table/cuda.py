@@ -15,8 +15,8 @@ import numpy as np
 from numba import config, cuda
 from numpy.typing import ArrayLike
 
-from .._check import numbers, result_array
-from .._jit import element, kernel
+from ..ground.check import numbers, result_array
+from ..ground.compile import element, kernel
 from . import kernels
 from .kernels import Grid
 from .table import Table, operands_of

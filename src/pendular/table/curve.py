@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._check import numbers, result_array
-from .._jit import in_chunks, kernel
+from ..ground.check import numbers, result_array
+from ..ground.rows import entry, over_rows
 from . import kernels
 from .kernels import Grid, if_bridged, q_of
 
@@ -18,7 +18,7 @@ _BLOCK, _CHUNK = 256, 65536
 _TERMS, _MOST_TERMS = 8, 128
 
 
-@kernel
+@entry(plain_cost=2e-5)
 def _curve_range(rupture: float, series: Floats, separation: Floats, out: Floats, start: int, stop: int) -> None:
     """Clenshaw's sum, eight terms at a time for a block of contacts: the compiler makes vector instructions of it."""
     z, last, before = np.empty((3, _BLOCK))
@@ -71,7 +71,7 @@ class ForceCurve:
         gap = numbers("separation", separation, "m")
         result = result_array(out, gap.shape)
         flat = np.require(gap, None, ["C", "W"]).reshape(-1)
-        in_chunks(_curve_range, flat.size, _CHUNK, self.rupture_distance, self.series, flat, result.reshape(-1))
+        over_rows(_curve_range, flat.size, _CHUNK, self.rupture_distance, self.series, flat, result.reshape(-1))
         return result[()]
 
 

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from .polynomial import CELL, RUPTURE_CELL, in_three, in_two, rate_in_three
 
 __all__ = ["Grid", "energy", "force", "liquid", "rupture_distance", "stiffness"]

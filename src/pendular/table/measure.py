@@ -13,12 +13,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .._jit import in_chunks
 from ..exact.batch import RUPTURE as END
 from ..exact.batch import STABLE, answer
 from ..exact.equations import SUCTION, VOLUME
 from ..exact.state import State
-from .arrays import FORCE, LIQUID, RUPTURE, block_range, scalar_range
+from .arrays import FORCE, LIQUID, RUPTURE, evaluate
 from .kernels import (
     Q0,
     Q1,
@@ -51,7 +50,6 @@ _AT_ENDS = 0.3  # share of the coordinates that are one of the two ends of a cel
 _SCALE = np.array([1.0, 0.6, 0.3])  # q at which the largest force of a curve is looked for
 _WORST, _STEPS, _WIDTHS = 200, 8, (0.3, 0.1, 0.03, 0.01)  # of the search from the worst places; widths in half cells
 _CURVES_AT_ONCE = 8192
-_CHUNK = 65536
 _COLUMNS = [State._fields.index(name) for name in ("force", "volume", "curvature")]
 
 
@@ -209,8 +207,7 @@ def _errors(grid: Grid, task: Task, places: Places) -> Errors:
     def answers(asked: int, columns: int) -> Floats:
         each = [np.repeat(operand, columns) for operand in (control, radius1, radius2)]
         out = np.empty(control.size * columns)
-        loop = scalar_range if asked == RUPTURE else block_range
-        in_chunks(loop, out.size, _CHUNK, asked, grid, (gap[:, :columns].ravel(), *each, np.ones(1)), out)
+        evaluate(asked, grid, (gap[:, :columns].ravel(), *each, np.ones(1)), out)
         return out.reshape(-1, columns)
 
     columns = q.shape[1]

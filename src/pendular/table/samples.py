@@ -6,14 +6,16 @@ some ten to forty terms reach far below the tolerance of the table.
 """
 
 import math
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .._jit import in_chunks, kernel
 from ..exact.branch import branch_range, stretch_of
 from ..exact.equations import SUCTION, VOLUME
+from ..ground.compile import kernel
+from ..ground.rows import Own, entry, over_rows
 from .cuts import chebyshev, to_chebyshev
 from .task import Task
 
@@ -59,7 +61,8 @@ def exact_curves(task: Task, control: Floats, size: Floats, side: int, q: Floats
     found = Curves(np.empty(control.size), np.empty((control.size, q.size, 2)))
     held = VOLUME if task.is_volume else SUCTION
     pairs = pairs_of(task, control, size, side)
-    in_chunks(branch_range, control.size, _CHUNK, held, stretched, pairs, q[order], *found)
+    room = Own(lambda: np.empty((q.size, 4)))
+    over_rows(branch_range, control.size, _CHUNK, held, stretched, pairs, q[order], *found, room)
     values = np.empty_like(found.values)
     values[:, order] = found.values
     return Curves(found.rupture, values)
@@ -166,14 +169,23 @@ def _stretched(q: float, rupture: float, stretch: float) -> float:
     return math.sqrt(math.asinh(square / (a * math.sqrt(1.0 + b * b) + b * math.sqrt(1.0 + a * a))) / math.asinh(a))
 
 
-@kernel
+@entry(plain_cost=1e-3)
 def _sampled_range(
-    sample: Sample, control: Floats, size: Floats, q: Floats, rupture: Floats, values: Floats, start: int, stop: int
+    sample: Sample,
+    control: Floats,
+    size: Floats,
+    q: Floats,
+    rupture: Floats,
+    values: Floats,
+    of_size: Floats,
+    of_control: Floats,
+    series: Floats,
+    start: int,
+    stop: int,
 ) -> None:
-    """Curves at controls and sizes, from the series."""
-    of_size, of_control = np.empty(sample.rupture.shape[1]), np.empty(sample.rupture.shape[2])
-    terms = sample.values.shape[4] if q.size > 0 else 0
-    force, liquid = series = np.empty((2, terms))
+    """Curves at controls and sizes, from the series, with room for a polynomial of each."""
+    terms = series.shape[1]
+    force, liquid = series[0], series[1]
     last = sample.edges.size - 2
     for i in range(start, stop):
         place = max(size[i], 0.0) ** (1.0 / sample.power)
@@ -209,5 +221,8 @@ def curves_of(sample: Sample, control: Floats, size: Floats, q: Floats) -> Curve
     """Curves at controls and sizes, all at the same q, from the sample of their octave."""
     control, size = (np.ravel(numbers) for numbers in np.broadcast_arrays(control, size))
     found = Curves(np.empty(control.size), np.empty((control.size, q.size, 2)))
-    in_chunks(_sampled_range, control.size, _SAMPLED_CHUNK, sample, control, size, q, *found)
+    _, of_size, of_control = sample.rupture.shape
+    terms = sample.values.shape[4] if q.size > 0 else 0
+    room = (Own(partial(np.empty, shape)) for shape in (of_size, of_control, (2, terms)))
+    over_rows(_sampled_range, control.size, _SAMPLED_CHUNK, sample, control, size, q, *found, *room)
     return found

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from .._jit import kernel
+from ..ground.compile import kernel
 from .kernels import Q0, Q1, Grid, Place, cell_of, ends_of
 from .polynomial import CELL, CONTROL_TERMS, LANES, LEAST_SIZE_TERMS
 

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .._files import in_one_line, whole
+from ..ground.files import in_one_line, whole
 
 __all__ = ["load", "save"]
 

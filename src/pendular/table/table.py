@@ -9,10 +9,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._check import angle, as_path, in_range, numbers, one_of, quantity, result_array, scalar
-from .._jit import in_chunks
-from .._warn import warn
-from .arrays import ENERGY, FORCE, LIQUID, RUPTURE, STIFFNESS, block_range, scalar_range
+from ..ground.check import angle, as_path, in_range, numbers, one_of, quantity, result_array, scalar
+from ..ground.warn import warn
+from .arrays import ENERGY, FORCE, LIQUID, RUPTURE, STIFFNESS, evaluate
 from .build import build_grid, empty_grid, sample_range
 from .curve import ForceCurve, curve_of
 from .holding import refuse_without_contact
@@ -26,7 +25,6 @@ __all__ = ["Table", "ToleranceWarning", "load_table", "tabulate"]
 
 Floats = NDArray[np.float64]
 
-_CHUNK = 65536  # contacts that one thread takes at a time
 _RANGES = {"suction": (1e-2, 1e8), "volume": (1e-9, 1.0)}
 # Of the tolerance for one coordinate: what the coordinates do together is known afterwards.
 _SHARE, _LEAST_STEP, _MOST_BUILDS = 0.15, 0.5, 5
@@ -243,8 +241,7 @@ class Table:
             ).reshape(-1)
             for array in read
         )
-        loop = block_range if asked in (FORCE, LIQUID) else scalar_range
-        in_chunks(loop, result.size, _CHUNK, asked, self.grid, operands, result.reshape(-1))
+        evaluate(asked, self.grid, operands, result.reshape(-1))
         if np.isnan(np.sum(result)):
             self._refuse_outside(*np.broadcast_arrays(*read[1:]))
         return result[()]

@@ -11,7 +11,7 @@ and the wetted cap has the height h = kY²/(1 + cos δ) and the volume π h (3Y�
 import math
 from typing import NamedTuple
 
-from ..._jit import kernel
+from ...ground.compile import kernel
 
 _ROUNDING = 1e-13  # of a sine
 _PAST_EQUATOR = -0.5  # cos δ below which h = (1 - cos δ)/k is the accurate form

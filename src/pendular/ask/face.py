@@ -1,0 +1,284 @@
+"""The public face: a bridge between two solids, its rupture and its force curve, in SI units."""
+
+from dataclasses import replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..ground.check import one_of, plain, whole_number
+from ..laws import laws
+from .by_dataset import bridge_by_dataset, rupture_by_dataset
+from .by_law import bridge_by_law, rupture_by_law
+from .by_table import bridge_by_table, rupture_by_table
+from .liquid import HUMIDITY_UNCERTAINTY, Liquid, humidity_from_suction, suction_from_humidity, warn_kelvin
+from .pair import Pair
+from .problem import (
+    Asked,
+    Control,
+    ConvergenceWarning,
+    Limit,
+    Problem,
+    control_name,
+    control_of,
+    control_si,
+    reduce,
+    solve,
+    trace,
+)
+from .result import FIELDS, Bridge, Profile
+
+__all__ = ["FIELDS", "Bridge", "ConvergenceWarning", "Pair", "Profile", "bridge", "curve", "rupture"]
+
+Floats = NDArray[np.float64]
+
+# Methods that are neither exact nor a law.
+_BRIDGES = {"table": bridge_by_table, "dataset": bridge_by_dataset}
+_RUPTURES = {"table": rupture_by_table, "dataset": rupture_by_dataset}
+
+
+def bridge(
+    pair: Pair,
+    separation: ArrayLike,
+    *,
+    suction: ArrayLike | None = None,
+    volume: ArrayLike | None = None,
+    humidity: ArrayLike | None = None,
+    liquid: Liquid,
+    branch: Literal["stable", "unstable"] = "stable",
+    limit: Limit = "stability",
+    method: str = "exact",
+) -> Bridge:
+    r"""Capillary bridge between two solids at a separation, exactly.
+
+    .. math:: & \frac{Y''}{(1+Y'^2)^{3/2}} - \frac{1}{Y\sqrt{1+Y'^2}} = \frac{\Delta p}{\gamma}
+        \quad \text{([1], Eq. 8)} \\ & F = 2\pi\gamma\lambda \quad \text{(Eq. 11)}
+
+    Parameters
+    ----------
+    pair : Pair
+        The solids.
+    separation : array_like
+        D, whole gap from surface to surface, [m], above minus half the smaller radius; negative means overlap.
+    suction : array_like, optional
+        Δp = p_gas - p_liquid held constant, [Pa], up to 1e13 γ/R̄ either way. Exactly one of the three controls is
+        given.
+    volume : array_like, optional
+        Liquid volume held constant, [m³], 1e-30 to 1e4 R̄³. Where it is too large for a bridge at contact, there is one
+        from the lower end of the stable branch on; see :func:`rupture`.
+    humidity : array_like, optional
+        Relative humidity in (0, 1), [-]: suction by the Kelvin equation.
+    liquid : Liquid
+        Surface tension, and for humidity density and molar mass.
+    branch : {"stable", "unstable"}
+        The stable bridge, or the one beyond the end of the stable branch that meets it there.
+    limit : {"stability", "fold"}
+        Where the stable branch ends: at the end of stability, or at the fold. They differ for equal solids only; with
+        ``"fold"`` the symmetric bridges between the two are answered, too, and ``stable`` is False there.
+    method : str
+        ``"exact"``; ``"table"``, the exact answer from a :class:`Table` that is made first, for very many bridges;
+        ``"dataset"``, the interpolation of the paper; or the name of a law in ``pendular.laws``. A table gives force,
+        stiffness, volume and suction, the data base and a law the force only. A law of the other control is asked with
+        the volume or the suction of the exact bridge; one at constant suction has no answer where that suction would
+        not hold the bridge. Where a method has no answer the force is NaN and ``exists`` False.
+
+    Returns
+    -------
+    Bridge
+        Fields of the shape to which the arguments, radii and angles broadcast.
+
+    Raises
+    ------
+    ValueError
+        For bad input, naming the argument, its value and what is allowed.
+
+    Warns
+    -----
+    KelvinWarning
+        Where the Kelvin equation is doubtful, or the humidity does not fix the force.
+    RangeWarning
+        Where a law is asked outside its range, takes a mean of solids that differ, or says nothing; once a call.
+    ConvergenceWarning
+        Where the solver failed; the fields are NaN there.
+
+    Notes
+    -----
+    **Validity.** No gravity, no roughness. Relative error below 1e-10 up to 0.999 of the rupture distance for reduced
+    suctions from 0 to 1e12, and for volumes below 1e-9; printed by ``python -m benchmarks.accuracy``.
+    In an overlap the volume counts the liquid outside the two caps, each of them whole.
+
+    References
+    ----------
+    .. [1] C.-F. Zhao, N. P. Kruyt, O. Millet, Powder Technology 360 (2020) 622.
+
+    Examples
+    --------
+    >>> grains = Pair(radius=50e-6, contact_angle=np.deg2rad(20))
+    >>> b = bridge(grains, 1e-6, suction=20e3, liquid=Liquid(surface_tension=0.0728))
+    >>> print(f"{b.force:.4e} N, {b.volume:.4e} m3, stable: {b.stable}")
+    1.5087e-05 N, 1.3015e-15 m3, stable: True
+    """
+    one_of("branch", branch, ("stable", "unstable"))
+    one_of("limit", limit, ("stability", "fold"))
+    control = control_of(suction, volume, humidity, liquid)
+    problem = reduce(pair, control, liquid, separation)
+    if _is_approximate(method):
+        one_of("branch", branch, ("stable",))
+        return _BRIDGES[method](problem) if method in _BRIDGES else bridge_by_law(problem, method)
+    answer = _echo(solve(problem, branch, limit), problem)
+    if humidity is not None:
+        _judge_humidity(pair, separation, control, liquid, branch, answer)
+    return answer
+
+
+def rupture(
+    pair: Pair,
+    *,
+    suction: ArrayLike | None = None,
+    volume: ArrayLike | None = None,
+    humidity: ArrayLike | None = None,
+    liquid: Liquid,
+    end: Literal["upper", "lower"] = "upper",
+    limit: Limit = "stability",
+    method: str = "exact",
+) -> Bridge:
+    r"""Bridge at the end of its stable branch; its separation is the rupture distance.
+
+    .. math:: \left.\frac{\partial D}{\partial\lambda}\right|_{\Delta p} = 0 \quad\text{or}\quad
+              \left.\frac{\partial D}{\partial\lambda}\right|_V = 0
+
+    Parameters
+    ----------
+    pair, suction, volume, humidity, liquid
+        As for :func:`bridge`.
+    end : {"upper", "lower"}
+        The rupture distance; or the lower end, below which no bridge of a large volume is stable since the drop would
+        rather swallow the better wetted solid. ``exists`` is False where the branch goes on to contact.
+    limit : {"stability", "fold"}
+        Where the bridge loses its stability; or the fold, beyond which there is no bridge. The two differ only at
+        constant volume between equal solids of equal contact angle, above about 31°, where the liquid slides to one
+        side before the fold.
+    method : str
+        ``"exact"``, ``"table"``, ``"dataset"``, or the name of a law of the given control in ``pendular.laws``.
+
+    Returns
+    -------
+    Bridge
+        Fields of the shape to which the arguments broadcast; ``exists`` is False where solids hold no bridge apart.
+
+    Raises
+    ------
+    ValueError
+        For bad input.
+
+    Warns
+    -----
+    KelvinWarning
+        Where the Kelvin equation is doubtful.
+    ConvergenceWarning
+        Where the solver failed; the fields are NaN there.
+
+    Notes
+    -----
+    **Validity.** Relative error of the rupture distance below 1e-11. At a fold the stiffness is infinite, and
+    ``unstable_directions`` and ``stable`` tell of the branch that ends there.
+
+    Examples
+    --------
+    >>> grains = Pair(radius=50e-6, contact_angle=np.deg2rad(40))
+    >>> water = Liquid(surface_tension=0.0728)
+    >>> print(f"{rupture(grains, suction=20e3, liquid=water).separation:.6e}")
+    2.443824e-06
+    >>> first = rupture(grains, volume=1.25e-16, liquid=water)
+    >>> fold = rupture(grains, volume=1.25e-16, liquid=water, limit="fold")
+    >>> print(f"{first.separation / 50e-6:.6f} {fold.separation / 50e-6:.6f}")
+    0.133586 0.135844
+    """
+    one_of("end", end, ("upper", "lower"))
+    one_of("limit", limit, ("stability", "fold"))
+    control = control_of(suction, volume, humidity, liquid)
+    if humidity is not None:
+        warn_kelvin(liquid.surface_tension / control.value, 0.0)
+    problem = reduce(pair, control, liquid, 0.0)
+    if _is_approximate(method):
+        one_of("end", end, ("upper",))
+        one_of("limit", limit, ("stability",))
+        return _RUPTURES[method](problem) if method in _RUPTURES else rupture_by_law(problem, method)
+    return solve(problem, end, limit)
+
+
+def curve(
+    pair: Pair,
+    *,
+    suction: ArrayLike | None = None,
+    volume: ArrayLike | None = None,
+    humidity: ArrayLike | None = None,
+    liquid: Liquid,
+    points: int = 201,
+    limit: Limit = "stability",
+) -> Bridge:
+    """Bridges from contact, or the lower end, to rupture and down the unstable branch, at one control.
+
+    Parameters
+    ----------
+    pair, suction, volume, humidity, liquid
+        As for :func:`bridge`.
+    points : int
+        States on the curve, at least 5; rupture is the one with index ``points // 2``.
+    limit : {"stability", "fold"}
+        As for :func:`rupture`.
+
+    Returns
+    -------
+    Bridge
+        Fields with the points on a further last axis (before a solid's own axis).
+
+    Raises
+    ------
+    ValueError
+        For bad input.
+
+    Examples
+    --------
+    >>> c = curve(Pair(radius=50e-6, contact_angle=0.0), suction=20e3, liquid=Liquid(surface_tension=0.0728))
+    >>> int(np.argmax(c.separation)), bool(c.stable[0]), bool(c.stable[-1])
+    (100, True, False)
+    """
+    one_of("limit", limit, ("stability", "fold"))
+    count = whole_number("points", points, 5)
+    control = control_of(suction, volume, humidity, liquid)
+    if humidity is not None:
+        warn_kelvin(liquid.surface_tension / control.value, 0.0)
+    problem = reduce(pair, control, liquid, 0.0)
+    return trace(problem, count, limit)
+
+
+def _is_approximate(method: str) -> bool:
+    """Whether a method is a table, the data base or a law of the registry; any other but exact is refused."""
+    one_of("method", method, ("exact", *_BRIDGES, *laws))
+    return method != "exact"
+
+
+def _echo(answer: Bridge, problem: Problem) -> Bridge:
+    """Give back the separation and the control that were asked, not those that the solver met to the last digits."""
+    name = control_name(problem)
+    asked = {"separation": problem.separation, name: control_si(problem).reshape(problem.shape)}
+    met = {field: plain(np.where(answer.exists, value, getattr(answer, field))) for field, value in asked.items()}
+    return replace(answer, **met)
+
+
+def _judge_humidity(
+    pair: Pair, separation: ArrayLike, control: Control, liquid: Liquid, branch: Asked, answer: Bridge
+) -> None:
+    """Warn where the Kelvin equation is doubtful or 0.1 % RH moves the force by more than a tenth."""
+    humidity = np.asarray(humidity_from_suction(control.value, liquid))
+    change = np.zeros(np.shape(answer.force))
+    for shift in (-HUMIDITY_UNCERTAINTY, HUMIDITY_UNCERTAINTY):
+        shifted = np.clip(humidity + shift, 1e-9, 1.0 - 1e-12)
+        other = Control("suction", np.asarray(suction_from_humidity(shifted, liquid)))
+        moved = solve(reduce(pair, other, liquid, separation), branch).force
+        with np.errstate(invalid="ignore", divide="ignore"):
+            relative = np.where(np.asarray(answer.exists), moved / np.asarray(answer.force) - 1.0, 0.0)
+        change = np.maximum(change, np.abs(relative))
+    radius = liquid.surface_tension / np.where(answer.exists, control.value, np.nan)
+    warn_kelvin(radius, change)

@@ -1,0 +1,253 @@
+"""A public question reduced to numbers, answered by the exact solver, and scaled back to SI units.
+
+Lengths are divided by the smaller radius and γ is 1: each row of a problem is (D, H or V, k1, θ1, k2, θ2).
+"""
+
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..exact import batch
+from ..exact.batch import FAILED, FOUND
+from ..exact.equations import SUCTION, VOLUME
+from ..exact.follow import BRANCH_ENDS, FOLDS
+from ..exact.state import State
+from ..ground.check import broadcast, in_range, plain, quantity
+from ..ground.warn import warn
+from .liquid import Liquid, suction_from_humidity
+from .pair import Pair, check_pair
+from .result import FIELDS, Bridge
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+Asked = Literal["stable", "unstable", "upper", "lower"]
+Limit = Literal["stability", "fold"]
+
+_PER_SOLID = ("contact_radius", "half_filling_angle", "wetted_area", "capillary_tensor")
+_DEEPEST_OVERLAP = 0.5  # over the smaller radius
+_VOLUMES, _MOST_SUCTION = (
+    (1e-30, 1e4),
+    1e13,
+)  # the domain, over R̄³ and γ/R̄: volumes, and the largest suction or pressure
+
+_ASKED: dict[Asked, int] = {
+    "stable": batch.STABLE,
+    "unstable": batch.UNSTABLE,
+    "upper": batch.RUPTURE,
+    "lower": batch.LOWER_END,
+}
+_LIMITS: dict[Limit, int] = {"stability": BRANCH_ENDS, "fold": FOLDS}
+
+
+class ConvergenceWarning(RuntimeWarning):
+    """The solver did not find, or exclude, some of the bridges; all their fields are NaN."""
+
+
+class Control(NamedTuple):
+    """The quantity that is held constant; humidity has become a suction."""
+
+    name: Literal["suction", "volume"]
+    value: Floats
+
+
+class Problem(NamedTuple):
+    """A public question, reduced: rows of (D, H or V, k1, θ1, k2, θ2) in units of the smaller radius and of γ."""
+
+    rows: Floats
+    held: int
+    separation: Floats  # as asked
+    length: Floats  # unit of length, one a row
+    surface_tension: float
+    shape: tuple[int, ...]
+
+
+def control_of(
+    suction: ArrayLike | None, volume: ArrayLike | None, humidity: ArrayLike | None, liquid: Liquid
+) -> Control:
+    """Return the one control that was given; humidity becomes a suction."""
+    given = [
+        name for name, value in (("suction", suction), ("volume", volume), ("humidity", humidity)) if value is not None
+    ]
+    if len(given) != 1:
+        raise ValueError(
+            f"control: {' and '.join(given) or 'none'} given; exactly one of suction, volume, humidity is needed"
+        )
+    if not isinstance(liquid, Liquid):
+        raise ValueError(f"liquid: {liquid!r} is not a pendular.Liquid; write Liquid.water() or Liquid.named(name)")
+    if humidity is not None:
+        return Control("suction", np.asarray(suction_from_humidity(humidity, liquid)))
+    if volume is not None:
+        return Control("volume", in_range("volume", quantity("volume", volume, "m**3"), 0.0, brackets="()", unit="m^3"))
+    return Control("suction", quantity("suction", suction, "Pa"))
+
+
+def reduce(pair: Pair, control: Control, liquid: Liquid, separation: ArrayLike) -> Problem:
+    """Check what depends on several arguments, broadcast, and divide by the smaller radius."""
+    check_pair(pair)
+    gap = quantity("separation", separation, "m")
+    (radius1, radius2), (angle1, angle2) = pair.radii, pair.contact_angles
+    named = {"separation": gap, control.name: control.value, "radius[0]": radius1, "radius[1]": radius2}
+    named |= {"contact_angle[0]": angle1, "contact_angle[1]": angle2}
+    arrays = broadcast(**named)
+    gap, value, radius1, radius2, angle1, angle2 = (np.ravel(array) for array in arrays)
+    length = np.minimum(radius1, radius2)
+    _refuse_deep_overlap(arrays[0], length.reshape(arrays[0].shape))
+    with np.errstate(divide="ignore"):
+        mean_radius = 2.0 / (1.0 / radius1 + 1.0 / radius2)
+    _refuse_beyond_domain(control, value, mean_radius, liquid)
+    if control.name == "volume":
+        held, reduced = VOLUME, value / length**3
+    else:
+        held, reduced = SUCTION, value * length / liquid.surface_tension
+    rows = np.column_stack([gap / length, reduced, length / radius1, angle1, length / radius2, angle2])
+    return Problem(rows, held, arrays[0], length, liquid.surface_tension, arrays[0].shape)
+
+
+def _refuse_deep_overlap(separation: Floats, smaller_radius: Floats) -> None:
+    """Refuse an overlap of half the smaller radius or more, which is no contact of grains."""
+    too_deep = np.argwhere(separation <= -_DEEPEST_OVERLAP * smaller_radius)
+    if len(too_deep):  # one row of no indices for a single number
+        index = tuple(too_deep[0])
+        place = str(list(map(int, index))) if index else ""
+        raise ValueError(
+            f"separation{place}: {separation[index]} m is not > {-_DEEPEST_OVERLAP * smaller_radius[index]:.6g}; "
+            f"an overlap may reach half the smaller radius"
+        )
+
+
+def _refuse_beyond_domain(control: Control, value: Floats, mean_radius: Floats, liquid: Liquid) -> None:
+    """Refuse what the solver was not tried on: it has no meaning for grains either."""
+    if control.name == "volume":
+        unit, low, high, symbol = mean_radius**3, *_VOLUMES, "m^3"
+    else:
+        unit, low, high, symbol = liquid.surface_tension / mean_radius, -_MOST_SUCTION, _MOST_SUCTION, "Pa"
+    strange = np.flatnonzero(~((value >= low * unit) & (value <= high * unit)))
+    if strange.size:
+        i = strange[0]
+        allowed = f"[{low * unit[i]:.6g}, {high * unit[i]:.6g}] {symbol}"
+        scale = "R³" if control.name == "volume" else "γ/R"
+        raise ValueError(
+            f"{control.name}: {value[i]:.6g} {symbol} is not in {allowed}, {low:g} to {high:g} {scale} with the mean "
+            f"radius R = {mean_radius[i]:.6g} m"
+        )
+
+
+def solve(problem: Problem, asked: Asked, limit: Limit = "stability") -> Bridge:
+    """Answer all rows."""
+    states, statuses = batch.answer(_ASKED[asked], problem.held, problem.rows, _LIMITS[limit])
+    return restore(problem, states, statuses, ())
+
+
+def trace(problem: Problem, points: int, limit: Limit) -> Bridge:
+    """Answer all rows with whole curves, of so many points each."""
+    states, statuses = batch.draw(problem.held, problem.rows, points, _LIMITS[limit])
+    return restore(problem, states, statuses, (points,))
+
+
+def restore(problem: Problem, states: Floats, statuses: NDArray[np.int8], extra: tuple[int, ...]) -> Bridge:
+    """Turn reduced states into a bridge in SI units, of the shape of the question and the extra axes."""
+    shape = problem.shape + extra
+    gamma = problem.surface_tension
+    unit = np.broadcast_to(problem.length.reshape(-1, *(1,) * len(extra)), statuses.shape).reshape(shape)
+    rows = problem.rows.reshape(problem.shape + (1,) * len(extra) + (6,))
+    theta = np.broadcast_to(rows[..., (3, 5)], (*shape, 2))
+    with np.errstate(divide="ignore"):
+        radii = np.broadcast_to(1.0 / rows[..., (2, 4)], (*shape, 2)) * unit[..., None]
+    state = dict(zip(State._fields, np.moveaxis(states.reshape(*shape, -1), -1, 0), strict=True))
+    exists = np.equal(statuses, FOUND).reshape(shape)
+    has_failed = np.equal(statuses, FAILED).reshape(shape)
+    failed = int(np.count_nonzero(has_failed))
+    if failed:
+        warn(f"the solver failed for {failed} of {exists.size} bridges", ConvergenceWarning)
+
+    def pair_of(first: Floats, second: Floats) -> Floats:
+        return np.stack([first, second], axis=-1)
+
+    wetted = pair_of(state["wetted_area1"], state["wetted_area2"])
+    energy = state["area"] - np.sum(np.cos(theta) * wetted, axis=-1)  # zero for dry and separate solids
+    force = np.where(exists, 2.0 * np.pi * gamma * unit * state["force"], 0.0)
+    force[has_failed] = np.nan
+    values: dict[str, Any] = {
+        "separation": state["separation"] * unit,
+        "suction": gamma * state["curvature"] / unit,
+        "volume": state["volume"] * unit**3,
+        "force": force,
+        "exists": exists,
+        "stable": (state["unstable_directions"] == 0.0) & (state["sideways_stable"] == 1.0),
+        "unstable_directions": np.where(exists, state["unstable_directions"], 0.0).astype(int),
+        "sideways_stable": state["sideways_stable"] == 1.0,
+        "neck_radius": state["neck_radius"] * unit,
+        "neck_inside": state["neck_inside"] == 1.0,
+        "liquid_gas_area": state["area"] * unit**2,
+        "surface_energy": gamma * energy * unit**2,
+        "grand_potential": gamma * (energy + state["curvature"] * state["volume"]) * unit**2,
+        "stiffness": 2.0 * np.pi * gamma * state["stiffness"],
+    }
+    return Bridge(
+        **{name: plain(value) for name, value in values.items()},
+        contact_radius=pair_of(state["radius1"], state["radius2"]) * unit[..., None],
+        half_filling_angle=pair_of(state["filling1"], state["filling2"]),
+        wetted_area=wetted * unit[..., None] ** 2,
+        capillary_tensor=pair_of(state["across_tensor"], state["axial_tensor"]) * unit[..., None] ** 2,
+        _meridian=np.stack(
+            [state["middle_radius"] * unit, state["middle_slope"], state["half_length"] * unit], axis=-1
+        ),
+        _solid_radius=radii,
+        _surface_tension=gamma,
+    )
+
+
+def control_name(problem: Problem) -> Literal["suction", "volume"]:
+    """Name of the quantity that a problem holds."""
+    return "volume" if problem.held == VOLUME else "suction"
+
+
+def derjaguin_radius(problem: Problem) -> Floats:
+    """R̄ = 2/(1/R1 + 1/R2), [m]; the rows hold the curvatures of the solids over that of the smaller one."""
+    curvatures: Floats = problem.rows[:, 2] + problem.rows[:, 4]
+    return 2.0 * problem.length / curvatures
+
+
+def control_star(problem: Problem) -> Floats:
+    """H R̄ or V/R̄³, one a row: what laws and data base are asked with."""
+    scale = derjaguin_radius(problem) / problem.length
+    held: Floats = problem.rows[:, 1]
+    return held / scale**3 if control_name(problem) == "volume" else held * scale
+
+
+def control_si(problem: Problem) -> Floats:
+    """Volume, [m³], or suction, [Pa], one a row."""
+    held: Floats = problem.rows[:, 1]
+    if control_name(problem) == "volume":
+        return held * problem.length**3
+    return problem.surface_tension * held / problem.length
+
+
+def partial_bridge(problem: Problem, separation: Floats, force_star: Any, exists: Bools) -> Bridge:
+    """Bridge in SI units with the few fields that a law or a table knows: force and separation at one control.
+
+    They speak of stable bridges only.
+    """
+    shape, gamma = problem.shape, problem.surface_tension
+    known = exists & ~np.isnan(np.asarray(separation))
+    fields: dict[str, Any] = {
+        "separation": np.where(known, separation, np.nan),
+        control_name(problem): np.where(known, control_si(problem), np.nan),
+        "force": 2.0 * np.pi * gamma * derjaguin_radius(problem) * np.asarray(force_star),
+        "exists": known,
+        "stable": known,
+        "unstable_directions": np.zeros(known.shape, int),
+        "sideways_stable": known,
+    }
+    empty = np.full(shape, np.nan)
+    answer: dict[str, Any] = {field: plain(empty) for field, _, _ in FIELDS}
+    answer |= {field: np.full((*shape, 2), np.nan) for field in _PER_SOLID}
+    answer |= {field: plain(np.reshape(value, shape)) for field, value in fields.items()}
+    answer["neck_inside"] = plain(np.zeros(shape, bool))
+    return Bridge(
+        **answer,
+        _meridian=np.full((*shape, 3), np.nan),
+        _solid_radius=np.full((*shape, 2), np.nan),
+        _surface_tension=gamma,
+    )

@@ -1,0 +1,109 @@
+"""What is known about a bridge, and its shape to draw."""
+
+from dataclasses import dataclass, field, fields
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..exact.batch import lay
+from ..ground.check import whole_number
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+Ints = NDArray[np.int_]
+
+
+class Profile(NamedTuple):
+    """A bridge to draw, [m]: the axis is x, the facing poles of the solids lie at x = 0 and x = D."""
+
+    x: Floats  # meridian, from the first solid to the second, points on the last axis
+    y: Floats
+    solid_x: Floats  # outlines for y >= 0: solids on the axis before the last
+    solid_y: Floats
+
+
+def _of(unit: str, meaning: str, *, private: bool = False) -> Any:
+    return field(metadata={"unit": unit, "meaning": meaning}, repr=not private)
+
+
+@dataclass(frozen=True, eq=False)
+class Bridge:
+    """Equilibrium bridges: every field a float, or an array of the shape that the arguments broadcast to.
+
+    A quantity that belongs to a solid has a trailing axis of two. Where there is no bridge, ``force`` is exactly 0.0,
+    ``exists`` and ``stable`` are False, and everything else is NaN.
+    """
+
+    separation: float | Floats = _of("m", "whole gap, surface to surface")
+    suction: float | Floats = _of("Pa", "gas pressure minus liquid pressure")
+    volume: float | Floats = _of("m^3", "liquid volume")
+    force: float | Floats = _of("N", "capillary force, attraction positive")
+    exists: bool | Bools = _of("", "a bridge exists at this separation and control")
+    stable: bool | Bools = _of("", "stable under the given control, sideways too")
+    unstable_directions: int | Ints = _of("", "axisymmetric directions in which the energy falls")
+    sideways_stable: bool | Bools = _of("", "the liquid does not slip to one side")
+    neck_radius: float | Floats = _of("m", "smallest radius of the surface")
+    neck_inside: bool | Bools = _of("", "the neck lies between the solids")
+    contact_radius: Floats = _of("m", "radius of the contact circle")
+    half_filling_angle: Floats = _of("rad", "half-filling angle, 0 on a plane")
+    liquid_gas_area: float | Floats = _of("m^2", "area of the meniscus")
+    wetted_area: Floats = _of("m^2", "liquid-solid area")
+    surface_energy: float | Floats = _of("J", "surface energy against dry solids")
+    grand_potential: float | Floats = _of("J", "surface energy + suction x volume")
+    stiffness: float | Floats = _of("N/m", "dF/dD with the given control held")
+    capillary_tensor: Floats = _of("m^2", "integral of n n over the meniscus, (n11, n33), 3 along the axis")
+    _meridian: Floats = _of("m", "radius and slope in the middle of the meridian, half its length", private=True)
+    _solid_radius: Floats = _of("m", "radii of the solids", private=True)
+    _surface_tension: float = _of("N/m", "surface tension", private=True)
+
+    def profile(self, points: int = 201) -> Profile:
+        """Meridian of the bridge and outlines of the solids, for drawing.
+
+        Parameters
+        ----------
+        points : int
+            Points on the meridian and on each outline, at least 3.
+
+        Returns
+        -------
+        Profile
+            Arrays of shape (..., points) and (..., 2, points), [m]; NaN where there is no bridge.
+
+        Examples
+        --------
+        >>> import pendular as pl
+        >>> grains = pl.Pair(radius=50e-6, contact_angle=0.0)
+        >>> b = pl.bridge(grains, 1e-6, suction=20e3, liquid=pl.Liquid(surface_tension=0.0728))
+        >>> bool(np.isclose(b.profile().y.min(), b.neck_radius))
+        True
+        """
+        count = whole_number("points", points, 3)
+        shape = np.shape(self.separation)
+        meridian = self._meridian.reshape(-1, 3)
+        curvature = np.ravel(np.asarray(self.suction) / self._surface_tension)
+        x, y = lay(np.column_stack([meridian, curvature]), count)
+        x, y = x.reshape(*shape, count), y.reshape(*shape, count)
+        with np.errstate(invalid="ignore"):
+            sagitta = 2.0 * self._solid_radius * np.sin(0.5 * self.half_filling_angle) ** 2
+        x = x - np.where(np.isinf(self._solid_radius), 0.0, sagitta)[..., :1]
+        solid_x, solid_y = _outlines(self._solid_radius, 4.0 * self.contact_radius.max(axis=-1), count)
+        solid_x[..., 1, :] = np.asarray(self.separation)[..., None] - solid_x[..., 1, :]
+        return Profile(x, y, solid_x, solid_y)
+
+
+def _outlines(radius: Floats, plane_height: Floats, count: int) -> tuple[Floats, Floats]:
+    """Upper half of each solid with its facing pole at x = 0 and its body at x < 0; a plane is a line."""
+    turn = np.linspace(0.0, np.pi, count)
+    is_plane = np.isinf(radius)[..., None]
+    finite = np.where(np.isinf(radius), 0.0, radius)[..., None]
+    rise = np.broadcast_to(plane_height[..., None, None] * np.linspace(0.0, 1.0, count), (*radius.shape, count))
+    x = np.where(is_plane, 0.0, finite * (np.cos(turn) - 1.0))
+    y = np.where(is_plane, rise, finite * np.sin(turn))
+    return x, y
+
+
+# The fields that a person reads, with their units: the one table behind the command line and the documentation.
+FIELDS = tuple(
+    (f.name, f.metadata["unit"], f.metadata["meaning"]) for f in fields(Bridge) if not f.name.startswith("_")
+)

@@ -1,0 +1,1 @@
+"""The data base of bridges of the article: a grid of exact bridges, and interpolation in it."""

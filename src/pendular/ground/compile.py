@@ -1,0 +1,163 @@
+"""One way to compile: a kernel is a plain function with a mark, and Numba makes machine code of it where that pays.
+
+Every kernel is a scalar function of floats. Plain Python calls it as it stands. Compiled, it follows the error model of
+NumPy: a division by zero gives inf or NaN, as NaN marks "outside the domain" throughout. Only this package imports
+Numba, and
+nothing here does before a kernel is to be compiled.
+"""
+
+from collections.abc import Callable
+from functools import cache
+from importlib import import_module
+from importlib.util import find_spec
+from types import CellType, CodeType, FunctionType, ModuleType
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = [
+    "Kernel", "compiled", "constants", "fastmath_of", "has_compiler", "kernel", "kernel_written_in",
+    "let_numba_call_kernels", "rebound", "summing_kernel",
+]  # fmt: skip
+
+Kernel = TypeVar("Kernel", bound=Callable[..., Any])
+
+# Sums may be added up in any order, several at once; NaN, infinity and every other rule of arithmetic stay.
+_ANY_ORDER = frozenset({"reassoc", "contract"})
+
+_fastmath: dict[Any, frozenset[str]] = {}  # of each kernel
+_writers: dict[Any, str] = {}  # of the compiled form of a few
+_typing_contexts: list[Any] = []  # of Numba, that know the kernels
+
+
+def kernel(function: Kernel) -> Kernel:
+    """Mark a function that compiled code may call."""
+    return _marked(function, frozenset())
+
+
+def summing_kernel(function: Kernel) -> Kernel:
+    """Mark a kernel whose loop adds up many terms, in the lanes of the processor."""
+    return _marked(function, _ANY_ORDER)
+
+
+def kernel_written_in(module: str) -> Callable[[Kernel], Kernel]:
+    """Mark a kernel whose compiled form is written by hand, as an overload for Numba, in a module of that name."""
+
+    def mark(function: Kernel) -> Kernel:
+        _writers[function] = module
+        return kernel(function)
+
+    return mark
+
+
+def _marked(function: Kernel, fastmath: frozenset[str]) -> Kernel:
+    _fastmath[function] = fastmath
+    for context in _typing_contexts:
+        _introduce(context, function)
+    return function
+
+
+class _Constants(list[float]):
+    """Numbers that a kernel looks up: plain floats, which cost a third of NumPy's, an array in compiled code."""
+
+
+def constants(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Numbers that a kernel looks up."""
+    return _Constants(values.tolist())  # type: ignore[return-value]
+
+
+@cache
+def has_compiler() -> bool:
+    """Whether Numba is installed."""
+    return find_spec("numba") is not None
+
+
+@cache
+def compiled(function: Callable[..., Any]) -> Any:
+    """Return the dispatcher of Numba for a kernel, which keeps its code on disk until a source that enters it changes.
+
+    Without Numba this is the kernel as it stands.
+    """
+    if not has_compiler():
+        return function
+    from numba import njit
+
+    from .cache import keep_on_disk
+
+    dispatcher = njit(error_model="numpy", nogil=True, fastmath=set(_fastmath[function]))(rebound(function, compiled))
+    if dispatcher is not function:  # it is with the compiler off
+        keep_on_disk(dispatcher)
+    return dispatcher
+
+
+def rebound(function: Callable[..., Any], into: Callable[[Any], Any]) -> Callable[..., Any]:
+    """Copy a kernel so that all it calls, or looks up, is the compiled form of it; ``into`` gives that of a kernel."""
+    assert isinstance(function, FunctionType)
+    names = set(_names_in(function.__code__))
+    known = {name: _form(value, into) for name, value in function.__globals__.items() if name in names}
+    closure = tuple(CellType(_form(cell.cell_contents, into)) for cell in function.__closure__ or ())
+    copy = FunctionType(
+        function.__code__, {**function.__globals__, **known}, function.__name__, function.__defaults__, closure
+    )
+    copy.__kwdefaults__, copy.__qualname__, copy.__module__ = (
+        function.__kwdefaults__,
+        function.__qualname__,
+        function.__module__,
+    )
+    return copy
+
+
+def _names_in(code: CodeType) -> list[str]:
+    return [
+        *code.co_names,
+        *(name for part in code.co_consts if isinstance(part, CodeType) for name in _names_in(part)),
+    ]
+
+
+def _form(value: Any, into: Callable[[Any], Any]) -> Any:
+    if isinstance(value, _Constants):
+        return np.array(value)
+    if isinstance(value, FunctionType) and value in _fastmath:
+        if value not in _writers:
+            return into(value)
+        import_module(_writers[value])
+    if isinstance(value, ModuleType) and value.__name__.startswith(f"{__package__.partition('.')[0]}."):
+        return _Rebound(value, into)
+    return value
+
+
+class _Rebound(ModuleType):
+    """A module of kernels as compiled code sees it."""
+
+    def __init__(self, module: ModuleType, into: Callable[[Any], Any]) -> None:
+        super().__init__(module.__name__)
+        self.__dict__.update(_module=module, _into=into)
+
+    def __getattr__(self, name: str) -> Any:
+        value = _form(getattr(self._module, name), self._into)
+        self.__dict__[name] = value
+        return value
+
+
+def let_numba_call_kernels() -> None:
+    """Let compiled code of anyone call kernels as they stand; Numba calls this when it compiles for the first time."""
+    from numba.core.registry import cpu_target
+
+    context = cpu_target.typing_context
+    if context not in _typing_contexts:
+        _typing_contexts.append(context)
+        for function in _fastmath:
+            _introduce(context, function)
+
+
+def _introduce(context: Any, function: Callable[..., Any]) -> None:
+    from numba import types
+
+    if function not in _writers:
+        context.insert_global(function, types.Dispatcher(compiled(function)))
+
+
+def fastmath_of(function: Callable[..., Any]) -> set[str]:
+    """Rules of arithmetic that a kernel does without."""
+    return set(_fastmath[function])

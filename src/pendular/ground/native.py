@@ -1,0 +1,215 @@
+"""Machine code of kernels ahead of time: object files on disk, loaded without Numba in milliseconds.
+
+Numba compiles a kernel for the types of its arguments to an object file, which llvmlite's linker loads. The kernel is
+called as compiled code of Numba calls it: a status comes back, and arguments are laid out flat: numbers as they are, an
+array as its owner (none), size, address, shape and strides, a tuple as its members. The file is made by the Numba that
+is installed, so that both agree on this; its name has a stamp of all that enters it, and its content one of itself.
+"""
+
+import ctypes
+import hashlib
+import json
+import os
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .compile import fastmath_of, rebound
+from .files import whole
+from .stamp import stamp_of
+
+__all__ = ["build", "is_built", "load"]
+
+Native = Callable[..., None]
+_SEAL = hashlib.sha256().digest_size
+_NO_OWNER = (ctypes.c_void_p(None), ctypes.c_void_p(None))
+
+
+def load(function: Callable[..., None], arguments: tuple[Any, ...]) -> Native | None:
+    """Machine code of a kernel that returns nothing, for arguments of these types, None if there is no whole file."""
+    return _loaded(function, _types_of(arguments))
+
+
+def is_built(function: Callable[..., None], arguments: tuple[Any, ...]) -> bool:
+    """Whether there is a file of machine code of a kernel for arguments of these types."""
+    return _path_of(function, _types_of(arguments)).exists()
+
+
+def build(function: Callable[..., None], arguments: tuple[Any, ...]) -> Native | None:
+    """Compile a kernel for arguments of these types, keep its machine code where that can be done, and load it."""
+    types = _types_of(arguments)
+    content = _compiled(function, arguments)
+    with suppress(OSError):
+        path = _path_of(function, types)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with whole(path) as draft:
+            draft.write_bytes(hashlib.sha256(content).digest() + content)
+    _loaded.cache_clear()
+    return _linked(content)
+
+
+@cache
+def _loaded(function: Callable[..., None], types: str) -> Native | None:
+    try:
+        sealed = _path_of(function, types).read_bytes()
+    except OSError:
+        return None
+    digest, content = sealed[:_SEAL], sealed[_SEAL:]
+    return _linked(content) if hashlib.sha256(content).digest() == digest else None
+
+
+# -- the file --------------------------------------------------------------------------------------------------------
+
+
+def _path_of(function: Callable[..., None], types: str) -> Path:
+    source = Path(function.__code__.co_filename)
+    key = hashlib.sha256(f"{stamp_of(source)} {_processor()} {function.__module__} {types}".encode()).hexdigest()
+    return folder() / f"{function.__name__}-{key[:24]}.o"
+
+
+@cache
+def folder() -> Path:
+    """Where machine code is kept: ``PENDULAR_CACHE_DIR``, else in the user's own folder for such files."""
+    if chosen := os.environ.get("PENDULAR_CACHE_DIR"):
+        return Path(chosen)
+    if sys.platform == "win32":
+        home = os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local"
+    elif sys.platform == "darwin":
+        home = Path.home() / "Library" / "Caches"
+    else:
+        home = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
+    return Path(home) / "pendular"
+
+
+@cache
+def _processor() -> str:
+    import llvmlite.binding as llvm
+
+    features = llvm.get_host_cpu_features().flatten()
+    return f"{llvm.get_process_triple()} {llvm.get_host_cpu_name()} {features}"
+
+
+# -- types and the layout of arguments -------------------------------------------------------------------------------
+
+
+def _types_of(arguments: Any) -> str:
+    """Spell the types of arguments: what decides on the machine code."""
+    if isinstance(arguments, np.ndarray):
+        layout = "C" if arguments.flags.c_contiguous else "A"
+        return f"{arguments.dtype.str}{arguments.ndim}{layout}{'' if arguments.flags.writeable else 'r'}"
+    if isinstance(arguments, tuple):
+        return f"{type(arguments).__name__}({','.join(map(_types_of, arguments))})"
+    return type(arguments).__name__
+
+
+def _flat(argument: Any) -> Iterator[Any]:
+    if isinstance(argument, np.ndarray):
+        yield from _NO_OWNER
+        sizes = (argument.size, argument.itemsize, argument.ctypes.data, *argument.shape, *argument.strides)
+        yield from map(ctypes.c_int64, sizes)
+    elif isinstance(argument, tuple):
+        for member in argument:
+            yield from _flat(member)
+    elif isinstance(argument, bool):
+        yield ctypes.c_int8(argument)
+    elif isinstance(argument, float):
+        yield ctypes.c_double(argument)
+    else:
+        yield ctypes.c_int64(argument)
+
+
+# -- linking ---------------------------------------------------------------------------------------------------------
+
+_engines: list[Any] = []  # they own the code
+
+
+@cache
+def _engine() -> Any:
+    import llvmlite.binding as llvm
+
+    with suppress(RuntimeError):  # newer versions do that by themselves
+        llvm.initialize()
+    llvm.initialize_native_target()
+    llvm.initialize_native_asmprinter()
+    machine = llvm.Target.from_default_triple().create_target_machine(jit=True)
+    return llvm.create_mcjit_compiler(llvm.parse_assembly(""), machine)
+
+
+def _linked(content: bytes) -> Native:
+    """Load the content of a file: a line that names the kernel's symbol, then the object."""
+    import llvmlite.binding as llvm
+
+    head, _, code = content.partition(b"\n")
+    symbol = json.loads(head)["symbol"]
+    engine = _engine()
+    engine.add_object_file(llvm.ObjectFileRef.from_data(code))
+    engine.finalize_object()
+    address = engine.get_function_address(symbol)
+    function = ctypes.CFUNCTYPE(ctypes.c_int32)(address)
+    function.argtypes = None
+    nothing, error = ctypes.c_void_p(), ctypes.c_void_p()
+    answers = (ctypes.byref(nothing), ctypes.byref(error))
+
+    def call(*arguments: Any) -> None:
+        if function(*answers, *_flat(arguments)) != 0:
+            raise RuntimeError(f"{symbol} failed")
+
+    return call
+
+
+# -- compiling -------------------------------------------------------------------------------------------------------
+
+
+def _compiled(function: Callable[..., None], arguments: tuple[Any, ...]) -> bytes:
+    """Symbol and object of a kernel for arguments of these types."""
+    from numba import typeof
+    from numba.core.compiler_lock import global_compiler_lock
+
+    dispatcher = _unlinked(function)
+    signature = tuple(typeof(argument) for argument in arguments)
+    dispatcher.compile(signature)
+    result = dispatcher.overloads[signature]
+    head = json.dumps({"symbol": result.fndesc.llvm_func_name})
+    with global_compiler_lock:
+        code: bytes = result.library.emit_native_object()
+    return head.encode() + b"\n" + code
+
+
+@cache
+def _unlinked(function: Callable[..., Any]) -> Any:
+    """Dispatcher of a kernel whose code is for a file alone: nothing of it is loaded into this process."""
+    from numba import njit
+    from numba.core.compiler import Compiler
+
+    class AheadOfTime(Compiler):  # type: ignore[misc]
+        def __init__(self, typing_context: Any, _context: Any, *rest: Any) -> None:
+            super().__init__(typing_context, _context_of_files(), *rest)
+            self.state.flags.no_compile = True
+
+        def compile_extra(self, function: Any) -> Any:
+            result = super().compile_extra(function)
+            result = result._replace(entry_point=[].append)  # something of its own that stands for the function
+            self.state.targetctx.insert_user_function(result.entry_point, result.fndesc, [result.library])
+            return result
+
+    return njit(
+        error_model="numpy",
+        nogil=True,
+        fastmath=fastmath_of(function),
+        no_cpython_wrapper=True,
+        no_cfunc_wrapper=True,
+        _nrt=False,  # a kernel owns no memory
+        pipeline_class=AheadOfTime,
+    )(rebound(function, _unlinked))
+
+
+@cache
+def _context_of_files() -> Any:
+    from numba.core.registry import cpu_target
+
+    return cpu_target.target_context.with_aot_codegen("pendular", cpu_name="host")

@@ -1,0 +1,94 @@
+"""Rows of a question, answered in the way that is soonest: plain Python, or machine code on all threads.
+
+Plain Python answers a few rows in milliseconds. Loading machine code takes a tenth of a second, making it most of a
+minute. A process that keeps asking changes over once it has spent on plain answers what the change would cost.
+"""
+
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from time import perf_counter
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import native
+from .compile import Kernel, has_compiler, kernel
+from .threads import thread_count
+
+__all__ = ["ENTRIES", "Own", "element", "entry", "over_rows"]
+
+_LOADING = 0.15  # of machine code, [s]
+_PATIENCE = 3.0  # on plain answers before anything is compiled, [s]
+
+ENTRIES: list[Callable[..., None]] = []  # all kernels that arrays call
+_costs: dict[Any, float] = {}  # of a row in plain Python, [s]
+_spent: dict[Any, float] = {}  # on plain answers so far, [s]
+
+
+@kernel
+def element(operand: NDArray[np.float64], i: int) -> float:
+    """Element i of an operand that is as long as the result or has one element for all."""
+    return operand[min(i, operand.size - 1)]  # type: ignore[no-any-return]
+
+
+class Own(NamedTuple):
+    """An argument that each thread has for itself."""
+
+    make: Callable[[], Any]
+
+
+def entry(plain_cost: float) -> Callable[[Kernel], Kernel]:
+    """Mark a kernel that answers rows: it ends in ``(start, stop)``, and returns and allocates nothing.
+
+    Parameters
+    ----------
+    plain_cost : float
+        Time that a row takes in plain Python, [s].
+    """
+
+    def mark(function: Kernel) -> Kernel:
+        ENTRIES.append(function)
+        _costs[function], _spent[function] = plain_cost, 0.0
+        return kernel(function)
+
+    return mark
+
+
+def over_rows(function: Callable[..., None], count: int, chunk: int, *arguments: Any) -> None:
+    """Run an entry over ``count`` rows, by chunks that threads share.
+
+    Each row is computed by the same code wherever it runs, so the results do not depend on the threads.
+    """
+    example = (*_owned(arguments), 0, count)
+    code = _machine_code(function, count, example)
+    if code is None:
+        start = perf_counter()
+        function(*example)
+        _spent[function] += perf_counter() - start
+        return
+    starts = range(0, count, chunk)
+    threads = min(thread_count(), len(starts))
+    if threads <= 1:
+        code(*example)
+        return
+    with ThreadPoolExecutor(threads) as pool:
+        for _ in pool.map(lambda start: code(*_owned(arguments), start, min(count, start + chunk)), starts):
+            pass
+
+
+def _owned(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
+    return tuple(argument.make() if isinstance(argument, Own) else argument for argument in arguments)
+
+
+def _machine_code(function: Callable[..., None], count: int, arguments: tuple[Any, ...]) -> Callable[..., None] | None:
+    """Machine code of an entry, if it pays: None to run it as it stands."""
+    if not has_compiler():
+        return None
+    ahead = _spent[function] + count * _costs[function]
+    if ahead < _LOADING:
+        return None
+    code = native.load(function, arguments)
+    if code is None and ahead > _PATIENCE:
+        code = native.build(function, arguments)
+    return code

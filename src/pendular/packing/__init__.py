@@ -1,0 +1,1 @@
+"""Heaps of grains, and the liquid between them."""

@@ -1,0 +1,383 @@
+"""Forces of all bridges in one step of a DEM code: which contacts hold a bridge, and what it does to the particles.
+
+Contacts are worked on in the order of their two particles, whatever the order of the list, and forces are added up by
+one thread in that order: a result depends neither on the list nor on the number of threads, to the last bit.
+"""
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..ground.check import in_range, instance, quantity, scalar, unmasked
+from ..ground.compile import compiled, kernel
+from ..ground.rows import entry, over_rows
+from ..table import Table
+
+__all__ = ["BridgeState", "ContactForces", "contact_energy", "contact_forces"]
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+_CHUNK = 65536  # contacts that one thread takes at a time
+
+
+class BridgeState(NamedTuple):
+    """Which pairs of particles hold a bridge: all that one step hands to the next.
+
+    It is stored by ``np.savez(path, **state._asdict())`` and read back by ``BridgeState(**np.load(path))``.
+    """
+
+    pairs: Integers  # (bridges, 2): indices of the particles, each pair once
+    control: Floats  # (bridges,): suction at the last step, [Pa], or volume since the bridge formed, [m³]
+
+
+class ContactForces(NamedTuple):
+    """What :func:`contact_forces` returns."""
+
+    state: BridgeState  # for the next step
+    force: Floats  # (particles, 3), [N]
+    virial: Floats  # (3, 3), symmetric, [J]
+    separation: Floats  # (bridges,): gap of each bridge, in the order of ``state.pairs``, [m]
+    attraction: Floats  # (bridges,): its force, positive if the particles are pulled together, [N]
+
+
+@kernel
+def _ends(pairs: Integers, contact: int) -> tuple[int, int]:
+    """Particles of a contact, in ascending order."""
+    first, second = pairs[contact, 0], pairs[contact, 1]
+    return (first, second) if first < second else (second, first)
+
+
+@kernel
+def _first_wrong(pairs: Integers, particles: int) -> int:
+    """First pair that does not join two of the particles, or -1."""
+    for contact in range(pairs.shape[0]):
+        low, high = _ends(pairs, contact)
+        if low < 0 or high >= particles or low == high:
+            return contact
+    return -1
+
+
+@kernel
+def _ascends(pairs: Integers) -> bool:
+    """Whether the pairs are in order, each there once."""
+    ascends = True
+    for contact in range(1, pairs.shape[0]):
+        ascends = ascends and _ends(pairs, contact - 1) < _ends(pairs, contact)
+    return ascends
+
+
+@kernel
+def _order_of(pairs: Integers, particles: int) -> Integers:
+    """Order of the pairs by their smaller, then their larger index: two counting sorts, the lesser key first."""
+    order = np.arange(pairs.shape[0])
+    for key in (1, 0):
+        start = np.zeros(particles + 1, np.int64)
+        for contact in order:
+            start[_ends(pairs, contact)[key] + 1] += 1
+        for particle in range(particles):
+            start[particle + 1] += start[particle]
+        sorted_order = np.empty_like(order)
+        for contact in order:
+            end = _ends(pairs, contact)[key]
+            sorted_order[start[end]] = contact
+            start[end] += 1
+        order = sorted_order
+    return order
+
+
+@kernel
+def _first_twin(pairs: Integers) -> int:
+    """First of the ordered pairs that stands there twice, or -1."""
+    for contact in range(1, pairs.shape[0]):
+        if _ends(pairs, contact - 1) == _ends(pairs, contact):
+            return contact
+    return -1
+
+
+@kernel
+def _match(pairs: Integers, former_pairs: Integers) -> tuple[Integers, Integers]:
+    """Former bridge of each contact, or -1, and the former bridges that have no contact; both lists are in order."""
+    former = np.full(pairs.shape[0], -1)
+    missing = np.empty(former_pairs.shape[0], np.int64)
+    contact, lost = 0, 0
+    for bridge in range(former_pairs.shape[0]):
+        ends = _ends(former_pairs, bridge)
+        while contact < pairs.shape[0] and _ends(pairs, contact) < ends:
+            contact += 1
+        if contact < pairs.shape[0] and _ends(pairs, contact) == ends:
+            former[contact] = bridge
+        else:
+            missing[lost] = bridge
+            lost += 1
+    return former, missing[:lost]
+
+
+@kernel
+def distance_of(positions: Floats, first: int, second: int) -> float:
+    """Between two centres."""
+    x = positions[second, 0] - positions[first, 0]
+    y = positions[second, 1] - positions[first, 1]
+    z = positions[second, 2] - positions[first, 2]
+    return math.sqrt(x * x + y * y + z * z)
+
+
+@entry(plain_cost=2e-6)
+def _separation_range(
+    pairs: Integers, positions: Floats, radii: Floats, separation: Floats, start: int, stop: int
+) -> None:
+    """Gaps from start to stop, NaN where two centres coincide and no direction joins them."""
+    for contact in range(start, stop):
+        first, second = pairs[contact, 0], pairs[contact, 1]
+        distance = distance_of(positions, first, second)
+        separation[contact] = distance - (radii[first] + radii[second]) if distance > 0.0 else math.nan
+
+
+@kernel
+def _add_up(pairs: Integers, positions: Floats, attraction: Floats, force: Floats, virial: Floats) -> None:
+    """Add the pull of every bridge to its two particles, with opposite signs, and to the virial."""
+    total = np.zeros((3, 3))
+    for bridge in range(pairs.shape[0]):
+        first, second = pairs[bridge, 0], pairs[bridge, 1]
+        pull = attraction[bridge] / distance_of(positions, first, second)
+        for k in range(3):
+            arm = positions[second, k] - positions[first, k]
+            force[first, k] += pull * arm
+            force[second, k] -= pull * arm
+            for m in range(k + 1):
+                total[k, m] -= pull * arm * (positions[second, m] - positions[first, m])
+    for k in range(3):
+        for m in range(3):
+            virial[k, m] = total[max(k, m), min(k, m)]
+
+
+def contact_forces(
+    table: Table,
+    pairs: ArrayLike,
+    positions: ArrayLike,
+    radii: ArrayLike,
+    control: ArrayLike,
+    surface_tension: float,
+    *,
+    state: BridgeState | None = None,
+    formation_distance: float = 0.0,
+) -> ContactForces:
+    r"""Forces of the liquid bridges between spheres, with the hysteresis of their formation and rupture.
+
+    .. math:: \mathbf F_i = \sum_j F_{ij}\,\mathbf n_{ij}, \qquad
+              \mathbf W = -\sum_{i<j} F_{ij}\, d_{ij}\,\mathbf n_{ij} \otimes \mathbf n_{ij}
+
+    A bridge forms where a separation is at most the formation distance, and stays until the rupture distance of the
+    table.
+
+    Parameters
+    ----------
+    table : Table
+        Exact bridges, of :func:`tabulate`. If its contact angles differ, the first holds for the first of a pair.
+    pairs : array_like of int, (contacts, 2)
+        Particles that are close, each pair once, in any order. It must hold all pairs that still have a bridge.
+    positions : array_like, (particles, 3)
+        Centres, [m].
+    radii : array_like, (particles,)
+        [m].
+    control : array_like, scalar or (contacts,)
+        Suction in each bridge, [Pa], or the liquid volume, [m³], of those that form now: a bridge under volume control
+        keeps its own.
+    surface_tension : float
+        [N/m].
+    state : BridgeState, optional
+        Of the step before; no bridge by default.
+    formation_distance : float
+        [m].
+
+    Returns
+    -------
+    ContactForces
+        Force on every particle, the virial, bridges with their separation and force, and the state for the next step.
+        With ``virial`` the stress of a volume V is -virial/V, tension positive.
+
+    Raises
+    ------
+    ValueError
+        For bad input, a bridge outside the range of the table, or one that still stands and is not in the list.
+
+    Notes
+    -----
+    **Validity.** As the table. Forces act along the line of centres and exert no torque. Liquid of a bridge that
+    breaks is not handed to others.
+
+    Examples
+    --------
+    >>> from pendular import tabulate
+    >>> table = tabulate(0.35, reduced=(50.0, 200.0), radius_ratio=(1, 2), tolerance=1e-6)
+    >>> pairs, radii = [(0, 1)], [100e-6, 120e-6]
+    >>> apart = [(0.0, 0.0, 0.0), (221e-6, 0.0, 0.0)]  # 1 µm between the surfaces
+    >>> contact_forces(table, pairs, apart, radii, 1e5, 0.0728).force[0, 0]  # no bridge yet
+    np.float64(0.0)
+    >>> touching = contact_forces(table, pairs, [(0.0, 0.0, 0.0), (220e-6, 0.0, 0.0)], radii, 1e5, 0.0728)
+    >>> pulled = contact_forces(table, pairs, apart, radii, 1e5, 0.0728, state=touching.state)
+    >>> print(f"{pulled.force[0, 0]:.3e} {pulled.force[1, 0]:.3e}")
+    6.639e-06 -6.639e-06
+    """
+    instance("table", table, Table)
+    centres, sizes = _particles(positions, radii)
+    particles = len(sizes)
+    contacts, order = _in_order("pairs", pairs, particles)
+    given = _per_contact("control", control, len(contacts), "Pa" if table.control == "suction" else "m**3")
+    tension = scalar("surface_tension", surface_tension, "N/m")
+    in_range("surface_tension", tension, 0.0, brackets="(]", unit="N/m")
+    reach = scalar("formation_distance", formation_distance, "m")
+    in_range("formation_distance", reach, 0.0, unit="m")
+    before = _checked(state, particles)
+
+    former, missing = compiled(_match)(contacts, before.pairs)
+    if missing.size:
+        is_held = table.control == "volume" or given.ndim > 0
+        last = before.control[missing] if is_held else np.full(missing.size, given)
+        _refuse_standing(table, BridgeState(before.pairs[missing], last), centres, sizes, tension)
+    separation = _separations(contacts, centres, sizes)
+    chosen = np.flatnonzero((former >= 0) | (separation <= reach))
+    control_now = np.full(chosen.size, given) if given.ndim == 0 else given[order][chosen]
+    if table.control == "volume":
+        has_bridge = former[chosen] >= 0
+        control_now[has_bridge] = before.control[former[chosen][has_bridge]]
+    bridges = BridgeState(contacts.take(chosen, axis=0), control_now)
+    gaps = separation.take(chosen)
+    attraction = _attractions(table, bridges, gaps, sizes, tension)
+
+    stands = attraction != 0.0  # the table gives exactly 0 from rupture on
+    if not stands.all():
+        bridges = BridgeState(bridges.pairs[stands], bridges.control[stands])
+        gaps, attraction = gaps[stands], attraction[stands]
+    force, virial = np.zeros((particles, 3)), np.zeros((3, 3))
+    compiled(_add_up)(bridges.pairs, centres, attraction, force, virial)
+    return ContactForces(bridges, force, virial, gaps, attraction)
+
+
+def contact_energy(
+    table: Table, state: BridgeState, positions: ArrayLike, radii: ArrayLike, surface_tension: float
+) -> float:
+    r"""Potential of all bridges at their controls, of which the forces are minus the gradient.
+
+    .. math:: E = -\sum_b \int_{D_b}^{D_c} F\,\mathrm dD
+
+    Parameters
+    ----------
+    table, positions, radii, surface_tension
+        As for :func:`contact_forces`.
+    state : BridgeState
+        That step's.
+
+    Returns
+    -------
+    float
+        [J], minus the work that breaks all bridges.
+
+    Raises
+    ------
+    ValueError
+        For bad input or a bridge outside the range of the table.
+
+    Examples
+    --------
+    >>> from pendular import tabulate
+    >>> table = tabulate(0.35, reduced=(50.0, 200.0), radius_ratio=(1, 2), tolerance=1e-6)
+    >>> state = BridgeState(np.array([(0, 1)]), np.array([1e5]))
+    >>> energy = contact_energy(table, state, [(0, 0, 0), (220e-6, 0, 0)], [100e-6, 120e-6], 0.0728)
+    >>> print(f"{energy:.3e}")
+    -2.675e-11
+    """
+    instance("table", table, Table)
+    centres, sizes = _particles(positions, radii)
+    bridges = _checked(state, len(sizes))
+    if not bridges.control.size:
+        return 0.0
+    separation = _separations(bridges.pairs, centres, sizes)
+    first, second = bridges.pairs.T
+    return float(np.sum(table.energy(separation, bridges.control, sizes[first], sizes[second], surface_tension)))
+
+
+def _attractions(
+    table: Table, bridges: BridgeState, separation: Floats, radii: Floats, surface_tension: float
+) -> Floats:
+    """Force of each bridge, 0.0 for one that breaks."""
+    if not separation.size:
+        return np.empty(0)
+    first, second = bridges.pairs.T
+    return table.force(separation, bridges.control, radii.take(first), radii.take(second), surface_tension)
+
+
+def _separations(pairs: Integers, positions: Floats, radii: Floats) -> Floats:
+    separation = np.empty(len(pairs))
+    over_rows(_separation_range, len(pairs), _CHUNK, pairs, positions, radii, separation)
+    if np.isnan(np.sum(separation)):
+        first, second = pairs[np.flatnonzero(np.isnan(separation))[0]]
+        raise ValueError(f"positions: particles {first} and {second} have the same centre")
+    return separation
+
+
+def _refuse_standing(
+    table: Table, bridges: BridgeState, positions: Floats, radii: Floats, surface_tension: float
+) -> None:
+    """Refuse a list without pairs whose bridges have not broken."""
+    separation = _separations(bridges.pairs, positions, radii)
+    standing = np.flatnonzero(_attractions(table, bridges, separation, radii, surface_tension))
+    if standing.size:
+        pair, gap = tuple(bridges.pairs[standing[0]].tolist()), separation[standing[0]]
+        raise ValueError(f"pairs: {pair} is not there, but its bridge still stands at a separation of {gap:.6g} m")
+
+
+def _particles(positions: ArrayLike, radii: ArrayLike) -> tuple[Floats, Floats]:
+    sizes = quantity("radii", radii, "m")
+    if sizes.ndim != 1:
+        raise ValueError(f"radii: an array of shape {sizes.shape} is not one radius for each particle")
+    in_range("radii", sizes, 0.0, brackets="(]", unit="m")
+    centres = quantity("positions", positions, "m")
+    if centres.shape != (sizes.size, 3):
+        raise ValueError(f"positions: an array of shape {centres.shape} is not of shape ({sizes.size}, 3)")
+    return np.ascontiguousarray(centres), np.ascontiguousarray(sizes)
+
+
+def _in_order(name: str, pairs: Any, particles: int) -> tuple[Integers, Integers | slice]:
+    """Pairs in the order of their particles, and where each of them stood."""
+    array = np.asarray(unmasked(name, pairs))
+    if array.size == 0:
+        array = np.empty((0, 2), np.int64)
+    if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
+        given = f"an array of {array.dtype} of shape {array.shape}"
+        raise ValueError(f"{name}: {given} is not one of integers of shape (contacts, 2)")
+    listed = np.ascontiguousarray(array, np.int64)
+    wrong = compiled(_first_wrong)(listed, particles)
+    if wrong >= 0:
+        pair = tuple(listed[wrong].tolist())
+        raise ValueError(f"{name}[{wrong}]: {pair} is not two of the particles 0 to {particles - 1}")
+    if compiled(_ascends)(listed):
+        return listed, slice(None)
+    order = compiled(_order_of)(listed, particles)
+    ordered = listed.take(order, axis=0)
+    twin = compiled(_first_twin)(ordered)
+    if twin >= 0:
+        raise ValueError(f"{name}: {tuple(ordered[twin].tolist())} is there twice")
+    return ordered, order
+
+
+def _per_contact(name: str, value: Any, count: int, unit: str) -> Floats:
+    """One number for all contacts, 0-d, or one for each."""
+    if count == 0 and np.shape(value) == (0,):
+        return np.empty(0)
+    array = quantity(name, value, unit)
+    if array.shape not in ((), (count,)):
+        raise ValueError(f"{name}: an array of shape {array.shape} is not one number nor one for each of {count} pairs")
+    return array
+
+
+def _checked(state: BridgeState | None, particles: int) -> BridgeState:
+    """State with its bridges in the order of their particles."""
+    if state is None:
+        return BridgeState(np.empty((0, 2), np.int64), np.empty(0))
+    instance("state", state, BridgeState)
+    pairs, order = _in_order("state.pairs", state.pairs, particles)
+    control = _per_contact("state.control", state.control, len(pairs), "")
+    return BridgeState(pairs, np.full(len(pairs), control) if control.ndim == 0 else control[order])

@@ -1,0 +1,1 @@
+"""Bridges and answers as people see them: pictures and text."""
