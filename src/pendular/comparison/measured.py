@@ -133,7 +133,7 @@ def _rounded(error: float) -> float | None:
 
 
 def measured_errors(law: Law) -> MeasuredErrors:
-    """Stored errors of a law.
+    """Errors of a law: the stored ones, and for a law that is not in the file, one from outside, measured once.
 
     Examples
     --------
@@ -142,7 +142,9 @@ def measured_errors(law: Law) -> MeasuredErrors:
     >>> float((100.0 * stored.errors.force[stored.control_star == 100.0][0, 0]).round(2))
     -0.19
     """
-    rows = _stored()["laws"][law.name]
+    rows = _stored()["laws"].get(law.name)
+    if rows is None:
+        return _measured_now(law)
 
     def column(key: str) -> Floats:
         return np.array([row[key] for row in rows], dtype=np.float64)
@@ -150,6 +152,11 @@ def measured_errors(law: Law) -> MeasuredErrors:
     errors = Errors(column("force").reshape(-1, len(FRACTIONS)), column("rupture"), column("rupture_work"))
     name = f"{law.control}_star"
     return MeasuredErrors(law.control, column(name), column("contact_angle"), column("smaller_over_larger"), errors)
+
+
+@cache
+def _measured_now(law: Law) -> MeasuredErrors:
+    return measure(law)
 
 
 @cache

@@ -12,7 +12,7 @@ from pkgutil import iter_modules
 
 from ._record import Law
 
-__all__ = ["LAWS", "is_of_the_house", "register"]
+__all__ = ["LAWS", "house_laws", "is_of_the_house", "register"]
 
 GROUP = "pendular.laws"
 
@@ -79,8 +79,13 @@ def register(law: Law) -> None:
     _registered[law.name] = law
 
 
+def house_laws() -> list[Law]:
+    """Return the laws that come with this package, whatever is there beside them."""
+    return [LAWS[name] for name in _house()]
+
+
 def is_of_the_house(name: str) -> bool:
-    """Whether a law is one of those that come with this package."""
+    """Whether a law comes with this package."""
     return name in _house()
 
 

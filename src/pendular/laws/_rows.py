@@ -1,14 +1,16 @@
 """The function of a law over rows: one by one in plain Python if they are few, by a compiled loop if they are many.
 
-Compiling one costs a second, a plain answer microseconds. A function that nobody compiled is always asked plainly.
+Compiling or loading one costs seconds, a plain answer microseconds. A function that nobody compiled is always asked
+plainly.
 """
 
 import hashlib
 import math
-from collections import Counter
+from collections import defaultdict
 from functools import cache
 from importlib import import_module
 from itertools import repeat
+from time import perf_counter
 from types import FunctionType
 from typing import Any
 
@@ -23,31 +25,42 @@ __all__ = ["evaluate"]
 Array = NDArray[np.float64]
 Operands = tuple[Array, ...]
 
-_FEW = 20_000  # rows, in all calls of a process
+_PATIENCE = 1.0  # [s] of plain answers by a function in a process, before it is compiled or loaded
+_LEAST_COST = 1e-6  # [s] of a plain answer
 _ARGUMENTS_OF_FORCE = 6
 _CHUNK = 65536  # rows that one thread takes at a time
 _HOUSE = __package__
 _PLAIN = f"{_HOUSE.rpartition('.')[0]}._plain.laws"
 
-_asked: Counter[Kernel] = Counter()
+_spent: defaultdict[Kernel, float] = defaultdict(float)  # [s]
 
 
 def evaluate(function: Kernel, operands: Operands, out: Array) -> None:
     """Fill an array with a function of rows; an operand of one element counts for all."""
-    _asked[function] += out.size
-    if _asked[function] > _FEW and hasattr(function, "py_func"):
-        try:
-            in_chunks(_loop_over(function), out.size, _CHUNK, operands, out)
-        except (ArithmeticError, ValueError):  # of a kernel that was compiled with the rules of Python
-            _fill(function, operands, out)
-    else:
-        _fill(_plain(function), operands, out)
+    if not hasattr(function, "py_func"):
+        _fill(function, operands, out)
+        return
+    left = _PATIENCE - _spent[function]
+    if out.size * _LEAST_COST < left:
+        start = perf_counter()
+        is_filled = _fill(_plain(function), operands, out, start + left)
+        _spent[function] += perf_counter() - start
+        if is_filled:
+            return
+    try:
+        in_chunks(_loop_over(function), out.size, _CHUNK, operands, out)
+    except (ArithmeticError, ValueError):  # of a kernel that was compiled with the rules of Python
+        _fill(function, operands, out)
 
 
-def _fill(function: Kernel, operands: Operands, out: Array) -> None:
+def _fill(function: Kernel, operands: Operands, out: Array, until: float = math.inf) -> bool:
+    """Fill an array row by row, and tell whether there was time for all."""
     columns = (repeat(operand.item()) if operand.size == 1 else operand.tolist() for operand in operands)
     for i, *row in zip(range(out.size), *columns, strict=False):
         out[i] = _answer(function, row)
+        if perf_counter() > until:
+            return False
+    return True
 
 
 def _answer(function: Kernel, row: list[float]) -> float:
@@ -62,7 +75,7 @@ def _answer(function: Kernel, row: list[float]) -> float:
 @cache
 def _plain(function: Kernel) -> Kernel:
     """Return the source of a law of this folder as it is imported without the compiler; any other function itself."""
-    home, _, module = function.__module__.rpartition(".")
+    home, _, module = (getattr(function, "__module__", None) or "").rpartition(".")
     if home != _HOUSE or not hasattr(function, "py_func"):
         return function
     plain: Kernel = getattr(import_module(f"{_PLAIN}.{module}"), function.__name__)

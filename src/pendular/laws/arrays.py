@@ -1,11 +1,13 @@
 """Laws on arrays, asked by their names."""
 
+from collections.abc import Mapping
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._check import broadcast, numbers
 from ._help import add_help
-from ._record import Quantity
+from ._record import Law, Quantity
 from ._registry import LAWS
 from ._rows import evaluate
 from ._symbols import ANSWERS, CONTROL, LAW_NAME, SHARED
@@ -95,18 +97,37 @@ def rupture_work_star(
     )
 
 
-def _evaluate(law: str, quantity: Quantity, **operands: ArrayLike) -> Array:
-    function = LAWS[law].kernels.get(quantity) if law in LAWS else None
-    if function is None:
+def _evaluate(name: str, quantity: Quantity, **operands: ArrayLike) -> Array:
+    law = LAWS.get(name)
+    if law is None or quantity not in law.gives:
         able = ", ".join(record.name for record in LAWS.values() if quantity in record.gives)
-        raise ValueError(f"law is {law!r}, the laws that give the {quantity.replace('_', ' ')} are {able}")
+        raise ValueError(f"law is {name!r}, the laws that give the {quantity.replace('_', ' ')} are {able}")
     arrays = {name: numbers(name, operand, "") for name, operand in operands.items()}
     shape = broadcast(**arrays)[0].shape
-    out = np.empty(shape)
+    out = np.full(shape, np.nan)
     # One array type for every call, hence one compilation; an operand of one element is not repeated.
-    flat = tuple((array if array.size == 1 else np.broadcast_to(array, shape)).flatten() for array in arrays.values())
-    evaluate(function, flat, out.reshape(-1))
+    flat = {
+        name: (array if array.size == 1 else np.broadcast_to(array, shape)).flatten() for name, array in arrays.items()
+    }
+    rows = np.flatnonzero(np.broadcast_to(_has_meaning(law, flat), out.size))
+    if rows.size == out.size:
+        evaluate(law.kernels[quantity], tuple(flat.values()), out.reshape(-1))
+    elif rows.size:
+        some = np.empty(rows.size)
+        evaluate(law.kernels[quantity], tuple(x if x.size == 1 else x[rows] for x in flat.values()), some)
+        out.reshape(-1)[rows] = some
     return out[()]
+
+
+def _has_meaning(law: Law, operands: Mapping[str, Array]) -> NDArray[np.bool_]:
+    """Which rows are within the hard limits of the law, so that a function from outside need not see to that."""
+    limits = {variable.name: (variable.low, variable.high) for variable in law.variables}
+    has = np.ones(1, bool)
+    for name, values in operands.items():
+        variable = name.rstrip("12").replace("control", law.control)
+        low, high = limits.get(variable, (-np.inf, np.inf))
+        has = has & (values >= low) & ((values < high) if variable == "contact_angle" else (values <= high))
+    return has
 
 
 for _quantity, _function in (("force", force_star), ("rupture", rupture_star), ("rupture_work", rupture_work_star)):

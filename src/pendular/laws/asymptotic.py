@@ -59,7 +59,7 @@ def _half_gap(force_star: float, suction_star: float, contact_angle: float, kapp
     d_length = (a * c * s / (r * r * r) - c * c / r + c) * -kappa + (a - 3.0 * b / (r * r)) / (r * r) * d_r
     d_product = d_length - suction_star * kappa * circle.radius
     rate = force_rate(circle, suction_star, kappa)
-    if rate == 0.0:  # the force is the largest that the solid can hold
+    if abs(rate) <= 1e-15 * (1.0 + suction_star):  # the force is the largest that the solid can hold
         return math.nan, math.nan
     return length - suction_star * circle.sagitta, d_product / rate
 

@@ -41,7 +41,10 @@ def neck_radius(contact_radius_star: float, suction_star: float, contact_angle: 
     """
     t = math.tan(contact_angle)
     balance = 2.0 * contact_radius_star * (t + contact_radius_star) / (suction_star * math.sqrt(t * t + 1.0))
-    return math.sqrt(balance + 1.0 / (suction_star * suction_star) + contact_radius_star * contact_radius_star) - 1.0 / suction_star
+    return (
+        math.sqrt(balance + 1.0 / (suction_star * suction_star) + contact_radius_star * contact_radius_star)
+        - 1.0 / suction_star
+    )
 
 
 @kernel
