@@ -216,6 +216,21 @@ def test_its_help_is_completed(outside):
     assert outside.force_star.__doc__.endswith(">>> force_star(0.0, 0.01, 0.0, 0.0, 1.0, 1.0)\n1.0\n")
 
 
+def test_its_arguments_may_have_any_names(record):
+    def force(*x):
+        """Force."""
+        return record.force_star(*x)
+
+    def rupture(v, t1, t2, k1, k2):
+        """Rupture distance."""
+        return record.rupture_star(v, t1, t2, k1, k2)
+
+    pl.laws.register(replace(record, force_star=force, rupture_star=rupture))
+    assert pl.laws.force_star("smith2030", 0.0, 0.01, 0.0, 0.0, 1.0, 1.0) == 1.0
+    for function in (force, rupture):
+        assert "\nvolume_star : float\n    Liquid volume over the cube of the Derjaguin radius" in function.__doc__
+
+
 # -- in a process of its own -------------------------------------------------------------------------------------------
 
 

@@ -9,14 +9,17 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from textwrap import fill, indent
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._symbols import Variable
+from ._symbols import ANSWERS, SHARED, Variable, arguments
 
-__all__ = ["add_help"]
+if TYPE_CHECKING:
+    from ._record import Law
+
+__all__ = ["add_help", "add_help_of"]
 
 _WIDTH = 100
 _KINDS: dict[Any, str] = {
@@ -29,6 +32,30 @@ _ANGLES = {0.5 * math.pi: "π/2"}
 _TOGETHER = (("contact_angle1", "contact_angle2"), ("kappa1", "kappa2"))  # two arguments that have one line
 
 
+def add_help_of(law: "Law") -> None:
+    """Complete the docstrings of the functions of a law."""
+    limits = {variable.name: variable for variable in law.variables}
+    returned = {symbol.name: symbol for answers in law.steps.values() for symbol in answers}
+    symbols: dict[str, Variable] = {**SHARED, **limits, **returned, **{symbol.name: symbol for symbol in law.symbols}}
+    about = {
+        "validity": f"{law.valid_text}.",
+        "source": f"{law.reference[0].upper()}{law.reference[1:]}{f', doi:{law.doi}' if law.doi else ''}.",
+    }
+    for quantity, kernel in law.kernels.items():
+        solids, ends = law.solids[quantity], quantity == "force" and "rupture" in law.gives
+        add_help(
+            kernel,
+            symbols,
+            names=arguments(quantity, law.control),
+            rules={"contact_angle1": solids.angle_words, "kappa1": solids.size_words},
+            returned=(ANSWERS[quantity],),
+            beside=f"{'exactly 0.0 beyond rupture, ' if ends else ''}NaN outside the domain",
+            **about,
+        )
+    for step, answers in law.steps.items():
+        add_help(step, symbols, rules={}, returned=answers, **about)
+
+
 def add_help(
     function: Callable[..., Any],
     symbols: Mapping[str, Variable],
@@ -37,6 +64,7 @@ def add_help(
     returned: Iterable[Variable],
     validity: str,
     source: str,
+    names: Iterable[str] = (),
     beside: str = "",
 ) -> None:
     """Complete the docstring of a function, unless it lists its parameters already.
@@ -53,6 +81,8 @@ def add_help(
         What it returns.
     validity, source : str
         Sentences for all functions of the law.
+    names : iterable of str
+        Its arguments, if it may call them otherwise.
     beside : str
         Values that it returns beside those that are meant.
     """
@@ -61,7 +91,7 @@ def add_help(
         return
     words, prompt, examples = told.partition("\n\n>>> ")
     sections = {
-        "Parameters": "\n".join(_parameters(function, symbols, rules)),
+        "Parameters": "\n".join(_parameters(function, list(names), symbols, rules)),
         "Returns": _returns(function, tuple(returned), beside),
         "Notes": fill(f"**Validity.** {validity}", _WIDTH),
         "References": indent(fill(f".. [1] {source}", _WIDTH), "   ").lstrip(),
@@ -73,17 +103,17 @@ def add_help(
 
 
 def _parameters(
-    function: Callable[..., Any], symbols: Mapping[str, Variable], rules: Mapping[str, str]
+    function: Callable[..., Any], names: list[str], symbols: Mapping[str, Variable], rules: Mapping[str, str]
 ) -> Iterator[str]:
-    given = inspect.signature(function).parameters
-    names = list(given)
+    kinds = {name: _KINDS.get(given.annotation) for name, given in inspect.signature(function).parameters.items()}
+    names = names or list(kinds)
     while names:
         together = next((pair for pair in _TOGETHER if tuple(names[:2]) == pair), tuple(names[:1]))
-        del names[: len(together)]
+        names = names[len(together) :]
         symbol = symbols.get(together[0])
         if symbol is None:
             raise ValueError(f"symbols: {together[0]!r}, an argument of {function.__name__}, is not among them")
-        yield f"{', '.join(together)} : {_KINDS.get(given[together[0]].annotation, 'float')}"
+        yield f"{', '.join(together)} : {kinds.get(together[0]) or 'float'}"
         yield _described(symbol, rules.get(together[0], ""))
 
 

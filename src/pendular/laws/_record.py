@@ -1,14 +1,14 @@
 """What the library knows about a published law besides its formula: one frozen record per law."""
 
-import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from ._help import add_help
-from ._symbols import ANSWERS, SHARED, Variable
+from ._help import add_help_of
+from ._refusals import refuse_contradictions
+from ._symbols import Variable
 
-__all__ = ["ANY_SOLIDS", "Kernel", "Law", "Quantity", "Solids", "arguments"]
+__all__ = ["ANY_SOLIDS", "Kernel", "Law", "Quantity", "Solids"]
 
 Kernel = Callable[..., Any]
 Quantity = Literal["force", "rupture", "rupture_work"]
@@ -147,9 +147,8 @@ class Law:
     rupture_work_star: Kernel | None = None
 
     def __post_init__(self) -> None:
-        _check(self)
-        _check_ranges(self)
-        _add_help(self)
+        refuse_contradictions(self)
+        add_help_of(self)
 
     @property
     def kernels(self) -> dict[Quantity, Kernel]:
@@ -179,73 +178,3 @@ def _joined(rules: Mapping[Quantity, str]) -> str:
     if len(words) == 1:
         return words[0]
     return "; ".join(f"{quantity.replace('_', ' ')}: {rule}" for quantity, rule in rules.items())
-
-
-def arguments(quantity: Quantity, control: str) -> tuple[str, ...]:
-    """Arguments of the function for a quantity, in their order.
-
-    Examples
-    --------
-    >>> arguments("rupture", "volume")
-    ('volume_star', 'contact_angle1', 'contact_angle2', 'kappa1', 'kappa2')
-    """
-    common = (f"{control}_star", "contact_angle1", "contact_angle2", "kappa1", "kappa2")
-    return ("separation_star", *common) if quantity == "force" else common
-
-
-def _check(law: Law) -> None:
-    """Refuse a record from which a question could not be answered."""
-    if not (isinstance(law.name, str) and law.name.isidentifier() and law.name == law.name.lower()):
-        raise _refusal(law, "name", "it is not made of lower-case letters, digits and underscores")
-    if law.control not in ("suction", "volume"):
-        raise _refusal(law, "control", f"{law.control!r} is not one of 'suction', 'volume'")
-    if not law.gives:
-        raise _refusal(law, "functions", "none of force_star, rupture_star and rupture_work_star is given")
-    if set(law.solids) != set(law.gives):
-        raise _refusal(law, "solids", f"given are those of {list(law.solids)}, the law gives {list(law.gives)}")
-    for quantity, kernel in law.kernels.items():
-        names = arguments(quantity, law.control)
-        try:
-            inspect.signature(kernel).bind(*names)
-        except (TypeError, ValueError):
-            raise _refusal(law, f"{quantity}_star", f"it does not take ({', '.join(names)})") from None
-
-
-def _check_ranges(law: Law) -> None:
-    """Refuse ranges that are missing, or not of the variables and within their limits."""
-    limits = {variable.name: variable for variable in law.variables}
-    for name in (f"{law.control}_star", "contact_angle"):
-        if name not in limits or name not in law.valid:
-            raise _refusal(law, "valid" if name in limits else "variables", f"{name} is missing")
-    for name, (low, high) in law.valid.items():
-        if name not in limits:
-            raise _refusal(law, "valid", f"{name} is not among the variables")
-        if not limits[name].low <= low <= high <= limits[name].high:
-            raise _refusal(law, "valid", f"{name} from {low:g} to {high:g} is not a range in its hard limits")
-
-
-def _refusal(law: Law, name: str, said: str) -> ValueError:
-    return ValueError(f"{name} of law {law.name!r}: {said}")
-
-
-def _add_help(law: Law) -> None:
-    """Complete the docstrings of the functions of a law."""
-    limits = {variable.name: variable for variable in law.variables}
-    returned = {symbol.name: symbol for answers in law.steps.values() for symbol in answers}
-    symbols: dict[str, Variable] = {**SHARED, **limits, **returned, **{symbol.name: symbol for symbol in law.symbols}}
-    about = {
-        "validity": f"{law.valid_text}.",
-        "source": f"{law.reference[0].upper()}{law.reference[1:]}{f', doi:{law.doi}' if law.doi else ''}.",
-    }
-    for quantity, kernel in law.kernels.items():
-        solids, ends = law.solids[quantity], quantity == "force" and "rupture" in law.gives
-        add_help(
-            kernel,
-            symbols,
-            rules={"contact_angle1": solids.angle_words, "kappa1": solids.size_words},
-            returned=(ANSWERS[quantity],),
-            beside=f"{'exactly 0.0 beyond rupture, ' if ends else ''}NaN outside the domain",
-            **about,
-        )
-    for step, answers in law.steps.items():
-        add_help(step, symbols, rules={}, returned=answers, **about)

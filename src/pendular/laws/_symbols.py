@@ -15,6 +15,7 @@ __all__ = [
     "SUCTION",
     "VOLUME",
     "Variable",
+    "arguments",
 ]
 
 
@@ -70,3 +71,9 @@ ANSWERS = {
         "rupture_work_star", "-", "work from contact to rupture over 2πγ times the square of that radius", 0.0
     ),
 }
+
+
+def arguments(quantity: str, control: str) -> tuple[str, ...]:
+    """Arguments of the function of a law for a quantity, in their order."""
+    common = (f"{control}_star", "contact_angle1", "contact_angle2", "kappa1", "kappa2")
+    return ("separation_star", *common) if quantity == "force" else common
