@@ -4,6 +4,7 @@ import importlib
 import inspect
 import math
 import re
+from collections import defaultdict
 from pathlib import Path
 
 import numpy as np
@@ -258,14 +259,16 @@ def test_threads_change_nothing(monkeypatch):
 
 
 def test_rows_that_take_long_are_compiled(monkeypatch):
-    suction = np.geomspace(10.0, 1e6, 1000)
-    monkeypatch.setattr(_rows, "_loop_over", lambda kernel: pytest.fail("compiled"))
-    plain = arrays.rupture_star("asymptotic", suction, 0.3, 0.3, 1, 1)
-    monkeypatch.undo()
-    monkeypatch.setattr(_rows, "_PATIENCE", _rows._spent[laws["asymptotic"].rupture_star] + 0.002)
+    suction, kernel = np.geomspace(10.0, 1e6, 1000), laws["asymptotic"].rupture_star
+    monkeypatch.setattr(_rows, "_spent", defaultdict(float))
     monkeypatch.setattr(_rows, "_LEAST_COST", 0.0)
+    with monkeypatch.context() as patient:
+        patient.setattr(_rows, "_PATIENCE", math.inf)
+        patient.setattr(_rows, "_loop_over", lambda kernel: pytest.fail("compiled"))
+        plain = arrays.rupture_star("asymptotic", suction, 0.3, 0.3, 1, 1)
+    monkeypatch.setattr(_rows, "_PATIENCE", _rows._spent[kernel] + 0.002)
     compiled = arrays.rupture_star("asymptotic", suction, 0.3, 0.3, 1, 1)
-    assert _rows._spent[laws["asymptotic"].rupture_star] > _rows._PATIENCE
+    assert _rows._spent[kernel] > _rows._PATIENCE
     np.testing.assert_allclose(compiled, plain, rtol=1e-14)
 
 
