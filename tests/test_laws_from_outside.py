@@ -169,6 +169,21 @@ def test_its_errors_are_measured_on_demand(outside):
     assert measured_errors(outside) is measured
 
 
+def test_what_cannot_be_measured_is_told(record, capsys):
+    """A range beyond the grid, a function that fails."""
+    pl.laws.register(replace(record, valid={"volume_star": (10.0, math.inf), "contact_angle": (1.2, 1.3)}))
+    pl.laws.register(replace(record, name="broken2030", rupture_star=lambda v, t1, t2, k1, k2: v["broken"]))
+    pl.laws.register(replace(record, name="silent2030", force_star=lambda d, v, t1, t2, k1, k2: math.nan))
+    with pytest.warns(UserWarning, match="law 'broken2030' is not measured, as it fails: TypeError: 'float' object"):
+        assert measured_errors(laws["broken2030"]).control_star.size == 0
+    text = printed(capsys, "laws")
+    for name in ("smith2030", "broken2030", "silent2030"):
+        assert re.search(rf"^{name} +volume +force, rupture +", text, re.MULTILINE)
+    assert re.search(r"^broken2030 +volume +force, rupture +– +– +– ", text, re.MULTILINE)
+    assert "no error is measured" in re.sub(r"\s+", " ", printed(capsys, "laws", "broken2030"))
+    assert "\nno error is measured" in law_pages.section(laws["broken2030"])
+
+
 def test_in_the_commands(outside, capsys):
     assert re.search(r"^smith2030 +volume +force, rupture ", printed(capsys, "laws"), re.MULTILINE)
     page = printed(capsys, "laws", "smith2030")
