@@ -347,7 +347,7 @@ def test_the_range_is_that_of_the_control_of_the_law():
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"method": "zhao"}, "method: 'zhao' is not one of 'exact', 'table', 'dataset', 'zhao2020', "),
+        ({"method": "zhao"}, "method: 'zhao' is not one of 'exact', 'table', 'dataset', 'asymptotic', "),
         ({"method": "asymptotic_rupture"}, "method: 'asymptotic_rupture' gives no force, only the rupture"),
         ({"method": "lian1993"}, "method: 'lian1993' gives no force, only the rupture"),
         ({"method": "deboer2008"}, "method: 'deboer2008' gives no force, only the rupture work"),

@@ -93,7 +93,7 @@ def test_the_json_of_all_laws_is_that_of_each(answer):
 def test_an_unknown_law_is_one_line(run):
     status, output, errors = run("laws", "zhao")
     assert (status, output) == (2, "")
-    assert re.fullmatch(r"pendular: law: 'zhao' is not one of 'zhao2020', .*\n", errors)
+    assert re.fullmatch(r"pendular: law: 'zhao' is not one of 'asymptotic', .*\n", errors)
 
 
 # -- compare ---------------------------------------------------------------------------------------------------------

@@ -177,7 +177,7 @@ def test_each_law_has_a_map(name):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("zhao",), "law: 'zhao' is not one of 'zhao2020', "),
+        (("zhao",), "law: 'zhao' is not one of 'asymptotic', "),
         (("zhao2020", 1.0), "fraction: 1.0 is not in [0, 1)"),
         (("lian1993", 0.5), "fraction: lian1993 gives no force, its error is that of the rupture"),
     ],

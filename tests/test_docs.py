@@ -51,6 +51,7 @@ def text_of(name: str) -> str:
 @pytest.mark.parametrize("name", RUN_HERE)
 def test_code_of_the_page_does_what_it_shows(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("pendular.laws._registry._registered", {})  # a page registers a law
     (tmp_path / "made").mkdir()
     (tmp_path / "docs").symlink_to(DOCS)  # for code that reads files of the repository
     assert_commands_do_what_they_show(text_of(name))

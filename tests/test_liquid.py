@@ -333,9 +333,7 @@ def test_no_value_is_extrapolated(name):
 
 
 def test_import_costs_no_library():
-    program = (
-        "import sys, pendular.ask.liquid; print([m for m in ('thermo', 'chemicals', 'pint', 'pandas') if m in sys.modules])"
-    )
+    program = "import sys, pendular.ask.liquid; print([m for m in ('thermo', 'chemicals', 'pint', 'pandas') if m in sys.modules])"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
 

@@ -12,6 +12,7 @@ import numpy as np
 import pendular as pl
 from pendular.comparison import plots
 from pendular.comparison.measured import FRACTIONS, MeasuredErrors, measured_errors
+from pendular.comparison.tables import NOT_MEASURED
 from pendular.comparison.words import SYMBOLS, limit_words, number, percent, size_words
 from pendular.front.options import read_question
 from pendular.laws import Law, laws
@@ -130,7 +131,7 @@ def section(law: Law) -> str:
     told = [f"- {name}: {fact}\n" for name, fact in facts.items() if fact]
     told += [f"- Erratum: {in_symbols(erratum)}\n" for erratum in law.errata]
     measured = measured_errors(law)
-    tables = [*map(line, error_table(law, measured))]
+    tables = [*map(line, error_table(law, measured))] if measured.control_star.size else [f"{NOT_MEASURED}\n"]
     if np.any(measured.smaller_over_larger < 1.0):
         tables += ["\nLargest error over all angles:\n\n", *map(line, size_table(law, measured))]
     return f"## {law.name}\n\n{law.title}\n\n```text\n{law.formula}\n```\n\n{''.join(told)}\n{''.join(tables)}\n"

@@ -4,7 +4,6 @@ Tables come from the records behind them, pictures from the commands that stand 
 """
 
 import contextlib
-import importlib
 import io
 import runpy
 import shlex
@@ -23,7 +22,8 @@ from pendular.front.cli import app
 from pendular.front.cli import main as pendular
 from pendular.front.options import read_question
 from pendular.ground.units import read
-from pendular.laws import LAWS
+from pendular.laws import laws
+from pendular.laws._registry import is_of_the_house
 from pendular.paper.claims import Claim, measure
 from pendular.show.picture import save
 
@@ -143,12 +143,11 @@ def claim_row(claim: Claim) -> str:
 
 
 def law_functions() -> Iterator[str]:
-    """Formulas of all laws, from their docstrings."""
-    for law in LAWS:
-        module = f"pendular.laws.{law.name}"
+    """Formulas of all laws, from their docstrings, which their records complete."""
+    for law in laws.values():
         yield from ("", f"## {law.name}", "", f"{law.title}. [Errors and pictures](../laws.md#{law.name}).", "")
-        written = importlib.import_module(module)
-        names = [name for name in written.__all__ if callable(getattr(written, name))]
-        yield from ("```{eval-rst}", f".. currentmodule:: {module}", "")
-        yield from (f".. autofunction:: {module}.{name}" for name in names)
+        yield "```{eval-rst}"
+        for function in (*law.kernels.values(), *law.steps):
+            module = f"pendular.laws.{law.name}" if is_of_the_house(law.name) else function.__module__
+            yield from (f".. currentmodule:: {module}", f".. autofunction:: {module}.{function.__name__}")
         yield "```"

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..ground.warn import warn
 from ..laws import Law
 from ..laws.ranges import first_outside
 from .sample import ControlName, Errors, exact_sample, law_errors
@@ -133,7 +134,7 @@ def _rounded(error: float) -> float | None:
 
 
 def measured_errors(law: Law) -> MeasuredErrors:
-    """Stored errors of a law.
+    """Errors of a law: the stored ones, and for a law that is not in the file, one from outside, measured once.
 
     Examples
     --------
@@ -142,7 +143,9 @@ def measured_errors(law: Law) -> MeasuredErrors:
     >>> float((100.0 * stored.errors.force[stored.control_star == 100.0][0, 0]).round(2))
     -0.19
     """
-    rows = _stored()["laws"][law.name]
+    rows = _stored()["laws"].get(law.name)
+    if rows is None:
+        return _measured_now(law)
 
     def column(key: str) -> Floats:
         return np.array([row[key] for row in rows], dtype=np.float64)
@@ -150,6 +153,16 @@ def measured_errors(law: Law) -> MeasuredErrors:
     errors = Errors(column("force").reshape(-1, len(FRACTIONS)), column("rupture"), column("rupture_work"))
     name = f"{law.control}_star"
     return MeasuredErrors(law.control, column(name), column("contact_angle"), column("smaller_over_larger"), errors)
+
+
+@cache
+def _measured_now(law: Law) -> MeasuredErrors:
+    try:
+        return measure(law)
+    except Exception as error:  # of someone else's code
+        warn(UserWarning(f"law {law.name!r} is not measured, as it fails: {type(error).__name__}: {error}"))
+    none = np.empty(0)
+    return MeasuredErrors(law.control, none, none, none, Errors(np.empty((0, len(FRACTIONS))), none, none))
 
 
 @cache

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 __all__ = [
+    "NOT_MEASURED",
     "comparison_table",
     "law_page",
     "laws_table",
@@ -26,6 +27,8 @@ __all__ = [
     "recommendation_table",
     "sample_words",
 ]
+
+NOT_MEASURED = "no error is measured: the law says nothing at the points of the grid in its range"
 
 _FACTS = ("valid_text", "angle_rule", "size_rule", "reference", "doi", "equations", "provenance")
 _SHORT = {"force": "F", "rupture": "D_c", "rupture_work": "W"}
@@ -68,7 +71,8 @@ def law_page(law: Law) -> RenderableType:
     for variable in law.variables:
         variables.add_row(*_variable_row(law, variable))
     measured = measured_errors(law)
-    parts: list[Any] = [Padding(law.formula, (0, 0, 0, 2)), "", facts, "", variables, "", _error_table(measured)]
+    errors = _error_table(measured) if measured.control_star.size else NOT_MEASURED
+    parts: list[Any] = [Padding(law.formula, (0, 0, 0, 2)), "", facts, "", variables, "", errors]
     if np.any(measured.smaller_over_larger != 1.0):
         parts += ["", _size_table(law, measured)]
     return Group(*parts)

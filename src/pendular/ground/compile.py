@@ -1,12 +1,12 @@
 """One way to compile: a kernel is a plain function with a mark, and Numba makes machine code of it where that pays.
 
 Every kernel is a scalar function of floats. Plain Python calls it as it stands. Compiled, it follows the error model of
-NumPy: a division by zero gives inf or NaN, as NaN marks "outside the domain" throughout. Only this package imports
-Numba, and
-nothing here does before a kernel is to be compiled.
+NumPy: a division by zero gives inf or NaN, as NaN marks "outside the domain" throughout. Numba is imported when a
+kernel is to be compiled, not before.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from dis import get_instructions
 from functools import cache
 from importlib import import_module
 from importlib.util import find_spec
@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
-    "Kernel", "compiled", "constants", "fastmath_of", "has_compiler", "kernel", "kernel_written_in",
+    "Kernel", "compiled", "constants", "fastmath_of", "has_compiler", "is_kernel", "kernel", "kernel_written_in",
     "let_numba_call_kernels", "rebound", "summing_kernel",
 ]  # fmt: skip
 
@@ -67,6 +67,11 @@ def constants(values: NDArray[np.float64]) -> NDArray[np.float64]:
     return _Constants(values.tolist())  # type: ignore[return-value]
 
 
+def is_kernel(function: Any) -> bool:
+    """Whether a function has the mark."""
+    return isinstance(function, FunctionType) and function in _fastmath
+
+
 @cache
 def has_compiler() -> bool:
     """Whether Numba is installed."""
@@ -108,17 +113,18 @@ def rebound(function: Callable[..., Any], into: Callable[[Any], Any]) -> Callabl
     return copy
 
 
-def _names_in(code: CodeType) -> list[str]:
-    return [
-        *code.co_names,
-        *(name for part in code.co_consts if isinstance(part, CodeType) for name in _names_in(part)),
-    ]
+def _names_in(code: CodeType) -> Iterator[str]:
+    """Global names that code looks up."""
+    yield from (line.argval for line in get_instructions(code) if line.opname == "LOAD_GLOBAL")
+    for part in code.co_consts:
+        if isinstance(part, CodeType):
+            yield from _names_in(part)
 
 
 def _form(value: Any, into: Callable[[Any], Any]) -> Any:
     if isinstance(value, _Constants):
         return np.array(value)
-    if isinstance(value, FunctionType) and value in _fastmath:
+    if is_kernel(value):
         if value not in _writers:
             return into(value)
         import_module(_writers[value])

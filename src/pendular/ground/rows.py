@@ -55,8 +55,14 @@ def entry(plain_cost: float) -> Callable[[Kernel], Kernel]:
     return mark
 
 
-def over_rows(function: Callable[..., None], count: int, chunk: int, *arguments: Any) -> None:
-    """Run an entry over ``count`` rows, by chunks that threads share.
+def over_rows(
+    function: Callable[..., None],
+    count: int,
+    chunk: int,
+    *arguments: Any,
+    plainly: Callable[..., None] | None = None,
+) -> None:
+    """Run an entry over ``count`` rows, by chunks that threads share; ``plainly`` takes its place in plain Python.
 
     Each row is computed by the same code wherever it runs, so the results do not depend on the threads.
     """
@@ -64,7 +70,7 @@ def over_rows(function: Callable[..., None], count: int, chunk: int, *arguments:
     code = _machine_code(function, count, example)
     if code is None:
         start = perf_counter()
-        function(*example)
+        (plainly or function)(*example)
         _spent[function] += perf_counter() - start
         return
     starts = range(0, count, chunk)

@@ -1,19 +1,40 @@
 """Published closed forms for capillary bridges, each with its source, its range and its known errors.
 
-The package is also the registry: ``pendular.laws["zhao2020"].reference``.
+The package is also the registry: ``pendular.laws["zhao2020"].reference``. A file of this folder whose name begins with
+no underscore is a law; each is loaded when it is asked for.
 """
 
 import sys
 from collections.abc import Iterator
+from importlib import import_module
 from types import ModuleType
+from typing import Any
 
-from ._record import Law, Quantity, Solids, Variable
-from ._registry import LAWS
+from ._record import ANY_SOLIDS, Law, Quantity, Solids
+from ._registry import LAWS as laws
+from ._registry import is_of_the_house, register
+from ._symbols import CONTACT_ANGLE, GAP, SEPARATION, SIZE_RATIO, SUCTION, VOLUME, Variable
 from .arrays import force_star, rupture_star, rupture_work_star
 
-__all__ = ["Law", "Quantity", "Solids", "Variable", "force_star", "laws", "rupture_star", "rupture_work_star"]
+__all__ = [
+    "ANY_SOLIDS",
+    "CONTACT_ANGLE",
+    "GAP",
+    "SEPARATION",
+    "SIZE_RATIO",
+    "SUCTION",
+    "VOLUME",
+    "Law",
+    "Quantity",
+    "Solids",
+    "Variable",
+    "force_star",
+    "laws",
+    "register",
+    "rupture_star",
+    "rupture_work_star",
+]
 
-laws: dict[str, Law] = {law.name: law for law in LAWS}
 keys, values, items = laws.keys, laws.values, laws.items
 
 
@@ -21,15 +42,21 @@ class Registry(ModuleType):
     """Importing any law binds `pendular.laws` to this package, so the package has to answer as the registry."""
 
     def __getitem__(self, name: str) -> Law:
-        if name not in laws:
-            raise KeyError(f"law: {name!r} is not one of {', '.join(laws)}")
         return laws[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in laws
 
     def __iter__(self) -> Iterator[str]:
         return iter(laws)
 
     def __len__(self) -> int:
         return len(laws)
+
+    def __getattr__(self, name: str) -> Any:
+        if is_of_the_house(name):  # its file: loaded when it is asked for
+            return import_module(f"{__package__}.{name}")
+        raise AttributeError(f"module {__package__!r} has no attribute {name!r}")
 
 
 sys.modules[__name__].__class__ = Registry

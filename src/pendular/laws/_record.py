@@ -1,26 +1,19 @@
 """What the library knows about a published law besides its formula: one frozen record per law."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
-from math import inf, pi
-from typing import Literal
+from dataclasses import dataclass, field
+from typing import Any, Literal
 
-__all__ = [
-    "ANY_SOLIDS",
-    "CONTACT_ANGLE",
-    "GAP",
-    "SEPARATION",
-    "SIZE_RATIO",
-    "SUCTION",
-    "VOLUME",
-    "Law",
-    "Quantity",
-    "Solids",
-    "Variable",
-]
+from ._help import add_help_of
+from ._refusals import refuse_contradictions
+from ._symbols import Variable
 
-Kernel = Callable[..., float]
+__all__ = ["ANY_SOLIDS", "Kernel", "Law", "Quantity", "Solids"]
+
+Kernel = Callable[..., Any]
 Quantity = Literal["force", "rupture", "rupture_work"]
+
+_QUANTITIES: tuple[Quantity, ...] = ("force", "rupture", "rupture_work")
 
 _ANGLE_WORDS = {
     "any": "any two angles",
@@ -31,40 +24,6 @@ _ANGLE_WORDS = {
 }
 _SPHERE_WORDS = {"any": "any two spheres", "mean": "two equal spheres of the Derjaguin radius"}
 _PLANE_WORDS = {"any": ", a sphere on a plane as it is", "mean": "", "none": ", no plane"}
-
-
-@dataclass(frozen=True)
-class Variable:
-    """A quantity that a law depends on, with its hard limits.
-
-    Outside the limits the law has no meaning and its kernels return NaN; a limit itself belongs to the range where the
-    formula holds there.
-
-    Parameters
-    ----------
-    name : str
-        Name of the argument of the kernels; ``contact_angle`` stands for both angles.
-    unit : str
-        Unit, "-" for a reduced quantity.
-    low, high : float
-        Hard limits.
-    text : str
-        Meaning, one line.
-    """
-
-    name: str
-    unit: str
-    low: float
-    high: float
-    text: str
-
-
-SEPARATION = Variable("separation_star", "-", -inf, inf, "whole gap, surface to surface, over the Derjaguin radius")
-GAP = replace(SEPARATION, low=0.0)  # of a law that does not speak of overlapping solids
-SUCTION = Variable("suction_star", "-", 0.0, inf, "suction times the Derjaguin radius over the surface tension")
-VOLUME = Variable("volume_star", "-", 0.0, inf, "liquid volume over the cube of the Derjaguin radius")
-CONTACT_ANGLE = Variable("contact_angle", "rad", 0.0, pi / 2, "contact angle on either solid, through the liquid")
-SIZE_RATIO = Variable("size_ratio", "-", 1.0, inf, "larger over smaller radius, infinite for a plane")
 
 
 @dataclass(frozen=True)
@@ -127,13 +86,17 @@ class Law:
     solids : mapping of str to Solids
         Of which two solids each of the quantities speaks that the law gives.
     reference, doi, equations : str
-        Source, and the numbers of its equations that are used.
+        Source, and the numbers of its equations that are used; empty for a source that has none.
     formula : str
         The law as plain text, a line for each equation, in the symbols of the source; the last line defines them.
     provenance : str
         How the formula came here.
     errata : tuple of str
         Known problems of the source.
+    steps : mapping of callable to tuple of Variable
+        Further functions that belong to the law, and what each returns.
+    symbols : tuple of Variable
+        Arguments of the steps that are neither shared by laws nor returned by a step.
     force_star : callable, optional
         ``force_star(separation_star, control_star, contact_angle1, contact_angle2, kappa1, kappa2)``: the force
         :math:`\lambda^* = F/(2\pi\gamma\bar R)`, attraction positive, exactly 0.0 beyond rupture, NaN outside the
@@ -145,6 +108,17 @@ class Law:
         ``rupture_work_star(control_star, contact_angle1, contact_angle2, kappa1, kappa2)``: the work
         :math:`W/(2\pi\gamma\bar R^2)` of the capillary force from contact to rupture, NaN outside the domain of the
         formula.
+
+    Raises
+    ------
+    ValueError
+        In one line, for a record that contradicts itself.
+
+    Notes
+    -----
+    The three functions take numbers and return one. They are plain Python or compiled by Numba with
+    ``error_model="numpy"``. A plain one may raise ArithmeticError or ValueError for what is outside its domain, as
+    ``math.log(-1.0)`` does. Their docstrings, and those of the steps, are completed from the record.
 
     Examples
     --------
@@ -161,24 +135,31 @@ class Law:
     valid_text: str
     solids: Mapping[Quantity, Solids]
     reference: str
-    doi: str
-    equations: str
+    doi: str = ""
+    equations: str = ""
     formula: str
-    provenance: str
+    provenance: str = ""
     errata: tuple[str, ...] = ()
+    steps: Mapping[Kernel, tuple[Variable, ...]] = field(default_factory=dict)
+    symbols: tuple[Variable, ...] = ()
     force_star: Kernel | None = None
     rupture_star: Kernel | None = None
     rupture_work_star: Kernel | None = None
 
+    def __post_init__(self) -> None:
+        refuse_contradictions(self)
+        add_help_of(self)
+
+    @property
+    def kernels(self) -> dict[Quantity, Kernel]:
+        """The functions that are given, by their quantities."""
+        given = ((quantity, getattr(self, f"{quantity}_star")) for quantity in _QUANTITIES)
+        return {quantity: kernel for quantity, kernel in given if kernel is not None}
+
     @property
     def gives(self) -> tuple[Quantity, ...]:
         """The quantities that the law predicts, out of "force", "rupture" and "rupture_work"."""
-        kernels: dict[Quantity, Kernel | None] = {
-            "force": self.force_star,
-            "rupture": self.rupture_star,
-            "rupture_work": self.rupture_work_star,
-        }
-        return tuple(quantity for quantity, kernel in kernels.items() if kernel is not None)
+        return tuple(self.kernels)
 
     @property
     def angle_rule(self) -> str:

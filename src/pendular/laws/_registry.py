@@ -1,141 +1,146 @@
-"""The list of laws, and the switches by which compiled code reaches them, one for each quantity that laws predict.
+"""Where laws come from: the files of this folder, installed packages, and whoever registers one.
 
-To add a law: write its file, append its record to `LAWS`, and give its position a branch in the switches. The position
-is the code of the law in compiled code and in tables made from it, so the tuple only grows at its end. Numba can cache
-a switch on an integer; it cannot cache a loop over a function that is handed in.
+A law of this folder is a module with a record ``LAW``. A package brings laws by entry points of the group
+``pendular.laws``, each named as its record. Names are known without loading what they stand for.
 """
 
-import math
+from collections.abc import Iterator, Mapping
+from functools import cache
+from importlib import import_module
+from importlib.metadata import EntryPoint, entry_points
+from pkgutil import iter_modules
 
-from ..ground.compile import kernel
-from . import (
-    asymptotic,
-    asymptotic_rupture,
-    bagheri2024,
-    contact_limit,
-    deboer2008,
-    deboer2008_volume,
-    lambert2008,
-    lian1993,
-    lian_seville2016,
-    mikami1998,
-    pendular2026,
-    rabinovich2005,
-    soulie2006,
-    toroidal2020,
-    weigert1999,
-    willett2000,
-    willett2000_simple,
-    zhao2020,
-)
 from ._record import Law
 
-__all__ = ["LAWS", "force_star_of", "rupture_star_of", "rupture_work_star_of"]
+__all__ = ["LAWS", "house_laws", "is_of_the_house", "register"]
 
-LAWS: tuple[Law, ...] = (
-    zhao2020.LAW,
-    toroidal2020.LAW,
-    asymptotic.LAW,
-    asymptotic_rupture.LAW,
-    pendular2026.LAW,
-    willett2000.LAW,
-    willett2000_simple.LAW,
-    lian1993.LAW,
-    mikami1998.LAW,
-    soulie2006.LAW,
-    rabinovich2005.LAW,
-    lambert2008.LAW,
-    weigert1999.LAW,
-    lian_seville2016.LAW,
-    bagheri2024.LAW,
-    contact_limit.LAW,
-    deboer2008.LAW,
-    deboer2008_volume.LAW,
-)
+GROUP = "pendular.laws"
+
+_NO_LAWS = ("arrays", "contact_circle", "ranges")  # of this folder, beside those with an underscore
+_METHODS = ("exact", "table", "dataset")  # that may be asked where a law may be
+
+_registered: dict[str, Law] = {}
 
 
-@kernel
-def force_star_of(  # noqa: C901 - one branch a law
-    code: int,
-    separation_star: float,
-    control_star: float,
-    contact_angle1: float,
-    contact_angle2: float,
-    kappa1: float,
-    kappa2: float,
-) -> float:
-    """Force by the law at position `code`; arguments as in `Law`, NaN if the law gives no force."""
-    x = (separation_star, control_star, contact_angle1, contact_angle2, kappa1, kappa2)
-    if code == 0:
-        return zhao2020.force_star(*x)
-    if code == 1:
-        return toroidal2020.force_star(*x)
-    if code == 2:
-        return asymptotic.force_star(*x)
-    if code == 4:
-        return pendular2026.force_star(*x)
-    if code == 5:
-        return willett2000.force_star(*x)
-    if code == 6:
-        return willett2000_simple.force_star(*x)
-    if code == 8:
-        return mikami1998.force_star(*x)
-    if code == 9:
-        return soulie2006.force_star(*x)
-    if code == 10:
-        return rabinovich2005.force_star(*x)
-    if code == 11:
-        return lambert2008.force_star(*x)
-    if code == 12:
-        return weigert1999.force_star(*x)
-    if code == 13:
-        return lian_seville2016.force_star(*x)
-    if code == 14:
-        return bagheri2024.force_star(*x)
-    if code == 15:
-        return contact_limit.force_star(*x)
-    return math.nan
+class Laws(Mapping[str, Law]):
+    """All laws by their names: those of this folder, then those of packages, then those that were registered."""
+
+    def __getitem__(self, name: str) -> Law:
+        if name in _house():
+            return _of_the_house(name)
+        if name in _registered:
+            return _registered[name]
+        if name in _installed():
+            return _of_a_package(name)
+        raise KeyError(f"law: {name!r} is not one of {', '.join(self)}")
+
+    def __contains__(self, name: object) -> bool:
+        return name in _house() or name in _registered or name in _installed()
+
+    def __iter__(self) -> Iterator[str]:
+        yield from _house()
+        yield from _installed()
+        yield from _registered
+
+    def __len__(self) -> int:
+        return len(_house()) + len(_installed()) + len(_registered)
 
 
-@kernel
-def rupture_star_of(
-    code: int, control_star: float, contact_angle1: float, contact_angle2: float, kappa1: float, kappa2: float
-) -> float:
-    """Rupture distance by the law at position `code`; arguments as in `Law`, NaN if the law gives none."""
-    x = (control_star, contact_angle1, contact_angle2, kappa1, kappa2)
-    if code == 0:
-        return zhao2020.rupture_star(*x)
-    if code == 1:
-        return toroidal2020.rupture_star(*x)
-    if code == 2:
-        return asymptotic.rupture_star(*x)
-    if code == 3:
-        return asymptotic_rupture.rupture_star(*x)
-    if code == 4:
-        return pendular2026.rupture_star(*x)
-    if code == 5:
-        return willett2000.rupture_star(*x)
-    if code == 6:
-        return willett2000_simple.rupture_star(*x)
-    if code == 7:
-        return lian1993.rupture_star(*x)
-    if code == 8:
-        return mikami1998.rupture_star(*x)
-    if code == 13:
-        return lian_seville2016.rupture_star(*x)
-    if code == 14:
-        return bagheri2024.rupture_star(*x)
-    return math.nan
+LAWS = Laws()
 
 
-@kernel
-def rupture_work_star_of(
-    code: int, control_star: float, contact_angle1: float, contact_angle2: float, kappa1: float, kappa2: float
-) -> float:
-    """Rupture work by the law at position `code`; arguments as in `Law`, NaN if the law gives none."""
-    x = (control_star, contact_angle1, contact_angle2, kappa1, kappa2)
-    if code == 16:
-        return deboer2008.rupture_work_star(*x)
-    if code == 17:
-        return deboer2008_volume.rupture_work_star(*x)
-    return math.nan
+def register(law: Law) -> None:
+    """Add a law from outside to the registry of this process: it is compared, ranked, mapped and drawn as all others.
+
+    Parameters
+    ----------
+    law : Law
+        With functions in plain Python or compiled by Numba.
+
+    Raises
+    ------
+    ValueError
+        If there is a law of this name, or a method that `pendular.bridge` calls so.
+
+    Examples
+    --------
+    >>> register(LAWS["zhao2020"])
+    Traceback (most recent call last):
+    ...
+    ValueError: law: the name 'zhao2020' is taken by a law of pendular
+    """
+    if not isinstance(law, Law):
+        raise ValueError(f"law: {law!r} is not a record, pendular.laws.Law")
+    if law.name in _registered:
+        raise ValueError(f"law: the name {law.name!r} is taken by a law that was registered before")
+    _refuse_taken(law.name)
+    if law.name in _installed():
+        raise ValueError(f"law: the name {law.name!r} is taken by the installed package {_package(law.name)}")
+    _registered[law.name] = law
+
+
+def house_laws() -> list[Law]:
+    """Return the laws that come with this package, whatever is there beside them."""
+    return [LAWS[name] for name in _house()]
+
+
+def is_of_the_house(name: str) -> bool:
+    """Whether a law comes with this package."""
+    return name in _house()
+
+
+def _refuse_taken(name: str, origin: str = "") -> None:
+    """Refuse a name that means something without any law from outside."""
+    holder = "a law" if name in _house() else "a method" if name in _METHODS else None
+    if holder:
+        raise ValueError(f"law: the name {name!r}{origin} is taken by {holder} of pendular")
+
+
+@cache
+def _house() -> dict[str, None]:
+    """Names of the laws in this folder, in their order."""
+    modules = sorted(module.name for module in iter_modules(import_module(__package__).__path__))
+    return dict.fromkeys(name for name in modules if not name.startswith("_") and name not in _NO_LAWS)
+
+
+def _of_the_house(name: str) -> Law:
+    law: Law = import_module(f"{__package__}.{name}").LAW
+    return law
+
+
+@cache
+def _installed() -> dict[str, EntryPoint]:
+    """Entry points of packages by the names of their laws."""
+    found: dict[str, EntryPoint] = {}
+    for point in sorted(entry_points(group=GROUP), key=lambda point: point.name):
+        _refuse_taken(point.name, f" in the installed package {_name_of(point)}")
+        if point.name in found and point.value != found[point.name].value:
+            raise ValueError(
+                f"law: the name {point.name!r} is taken by two installed packages, {_name_of(found[point.name])} and "
+                f"{_name_of(point)}"
+            )
+        found[point.name] = point
+    return found
+
+
+@cache
+def _of_a_package(name: str) -> Law:
+    """Load a law of a package; whatever goes wrong there is told in one line."""
+    origin = f"law: {name!r} of the installed package {_package(name)}"
+    try:
+        law = _installed()[name].load()
+    except Exception as error:  # of someone else's code
+        raise ValueError(f"{origin} cannot be loaded: {error}") from error
+    if not isinstance(law, Law):
+        raise ValueError(f"{origin} is no record, pendular.laws.Law")
+    if law.name != name:
+        raise ValueError(f"{origin} calls itself {law.name!r}")
+    return law
+
+
+def _package(name: str) -> str:
+    return _name_of(_installed()[name])
+
+
+def _name_of(point: EntryPoint) -> str:
+    return point.dist.name if point.dist is not None else point.module

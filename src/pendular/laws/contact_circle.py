@@ -52,7 +52,10 @@ def wetted_arc_of(force: float, curvature: float, k: float, theta: float) -> flo
     discriminant = sin_theta * sin_theta + 4.0 * force * (k * math.cos(theta) + 0.5 * curvature - k * k * force)
     if not (discriminant >= 0.0 and force >= 0.0):
         return math.nan
-    tangent = 2.0 * force / (sin_theta + math.sqrt(discriminant))  # tan δ / k
+    root = sin_theta + math.sqrt(discriminant)
+    if root == 0.0:  # δ = π/2, the largest force that a sphere holds; or no force at all
+        return 0.5 * math.pi / k if k > 0.0 and force > 0.0 else math.nan
+    tangent = 2.0 * force / root  # tan δ / k
     return math.atan(k * tangent) / k if k > 0.0 else tangent
 
 

@@ -8,7 +8,8 @@ import math
 
 from ..ground.compile import kernel
 from ._domain import mean_cosine
-from ._record import ANY_SOLIDS, CONTACT_ANGLE, SIZE_RATIO, SUCTION, Law
+from ._record import ANY_SOLIDS, Law
+from ._symbols import CONTACT_ANGLE, SIZE_RATIO, SUCTION
 
 __all__ = ["LAW", "rupture_work_star"]
 
@@ -21,31 +22,9 @@ def rupture_work_star(
 
     .. math:: W = 2\pi\gamma\bar R^2 \cos^2\theta / H
 
-    Parameters
-    ----------
-    suction_star : float
-        Reduced suction, [-], > 0.
-    contact_angle1, contact_angle2 : float
-        Contact angles, [rad], 0 to π/2; the mean of the cosines counts.
-    kappa1, kappa2 : float
-        Derjaguin radius over the radius of each solid, [-]; not used.
+    The exact work is 0.159, 0.525, 0.814, 0.979 and 0.998 of it at H* = 1, 10, 100, 1e4 and 1e6, for equal spheres and
+    zero angle.
 
-    Returns
-    -------
-    float
-        Work over 2πγ times the square of the Derjaguin radius, [-]; NaN outside the domain.
-
-    Notes
-    -----
-    **Validity.** The exact work is 0.159, 0.525, 0.814, 0.979 and 0.998 of it at H* = 1, 10, 100, 1e4 and 1e6, for
-    equal spheres and zero angle.
-
-    References
-    ----------
-    .. [1] P. C. T. de Boer, M. P. de Boer, Langmuir 24 (2008) 160.
-
-    Examples
-    --------
     >>> rupture_work_star(100.0, 0.0, 0.0, 1.0, 1.0)
     0.01
     """
@@ -63,8 +42,6 @@ LAW = Law(
     valid_text="a leading order; measured: within 3 % for suction_star >= 1e4, angles up to 40 degrees",
     solids={"rupture_work": ANY_SOLIDS},
     reference="P. C. T. de Boer, M. P. de Boer, Langmuir 24 (2008) 160-169",
-    doi="",
-    equations="",
     formula="""\
 W = 2πγR̄² cos²θ/H
 suction H reduced by R̄ = 2R₁R₂/(R₁+R₂), cos θ = (cos θ₁ + cos θ₂)/2""",

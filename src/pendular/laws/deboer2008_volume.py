@@ -8,7 +8,8 @@ import math
 
 from ..ground.compile import kernel
 from ._domain import mean_cosine
-from ._record import ANY_SOLIDS, CONTACT_ANGLE, SIZE_RATIO, VOLUME, Law
+from ._record import ANY_SOLIDS, Law
+from ._symbols import CONTACT_ANGLE, SIZE_RATIO, VOLUME
 
 __all__ = ["LAW", "rupture_work_star"]
 
@@ -21,31 +22,9 @@ def rupture_work_star(
 
     .. math:: W = 2\gamma \cos\theta\, \sqrt{2\pi\bar R V}
 
-    Parameters
-    ----------
-    volume_star : float
-        Reduced volume, [-], > 0.
-    contact_angle1, contact_angle2 : float
-        Contact angles, [rad], 0 to π/2; the mean of the cosines counts.
-    kappa1, kappa2 : float
-        Derjaguin radius over the radius of each solid, [-]; not used.
+    The exact work is 0.853, 0.954, 0.988 and 0.998 of it at V* = 1e-2, 1e-4, 1e-6 and 1e-8, for equal spheres and zero
+    angle.
 
-    Returns
-    -------
-    float
-        Work over 2πγ times the square of the Derjaguin radius, [-]; NaN outside the domain.
-
-    Notes
-    -----
-    **Validity.** The exact work is 0.853, 0.954, 0.988 and 0.998 of it at V* = 1e-2, 1e-4, 1e-6 and 1e-8, for equal
-    spheres and zero angle.
-
-    References
-    ----------
-    .. [1] P. C. T. de Boer, M. P. de Boer, Langmuir 24 (2008) 160.
-
-    Examples
-    --------
     >>> f"{rupture_work_star(1e-4, 0.0, 0.0, 1.0, 1.0):.6f}"
     '0.007979'
     """
@@ -63,8 +42,6 @@ LAW = Law(
     valid_text="a leading order; measured: within 5 % for volume_star <= 1e-4, angles up to 40 degrees",
     solids={"rupture_work": ANY_SOLIDS},
     reference="P. C. T. de Boer, M. P. de Boer, Langmuir 24 (2008) 160-169",
-    doi="",
-    equations="",
     formula="""\
 W = 2γ cos θ √(2πR̄V)
 volume V, R̄ = 2R₁R₂/(R₁+R₂), cos θ = (cos θ₁ + cos θ₂)/2""",

@@ -8,7 +8,8 @@ import math
 
 from ..ground.compile import kernel
 from ._domain import one_angle
-from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law, Solids
+from ._record import Law, Solids
+from ._symbols import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Variable
 from .willett2000 import rupture_of_equal_spheres
 
 __all__ = ["LAW", "force_star", "half_filling_angle_at_contact", "rupture_star"]
@@ -20,29 +21,9 @@ def half_filling_angle_at_contact(volume_star: float, contact_angle: float) -> f
 
     .. math:: \alpha = V^{0.26} + (0.285 - 0.4594\, \theta)\, V^{0.6327 + 0.897\, \theta}
 
-    Parameters
-    ----------
-    volume_star : float
-        Reduced volume, [-], > 0.
-    contact_angle : float
-        [rad].
+    Against exact bridges of equal spheres, V* = 1e-5 to 0.1: within 0.24 degrees for angles up to 20 degrees, 0.50
+    degrees up to 40 degrees.
 
-    Returns
-    -------
-    float
-        [rad].
-
-    Notes
-    -----
-    **Validity.** Against exact bridges of equal spheres, V* = 1e-5 to 0.1: within 0.24 degrees for angles up to 20
-    degrees, 0.50 degrees up to 40 degrees.
-
-    References
-    ----------
-    .. [1] G. Lian, J. Seville, Advances in Colloid and Interface Science 227 (2016), doi:10.1016/j.cis.2015.11.003.
-
-    Examples
-    --------
     >>> f"{math.degrees(half_filling_angle_at_contact(1e-2, 0.0)):.2f}"
     '18.19'
     """
@@ -57,31 +38,6 @@ def rupture_star(
 
     .. math:: D_c = (1 + \theta/2) \left( V^{1/3} + 0.1\, V^{2/3} \right)
 
-    Parameters
-    ----------
-    volume_star : float
-        Reduced volume, [-], > 0.
-    contact_angle1, contact_angle2 : float
-        Contact angles, [rad], equal, 0 to π/2.
-    kappa1, kappa2 : float
-        Derjaguin radius over the radius of each solid, [-]; not used.
-
-    Returns
-    -------
-    float
-        Whole gap at rupture, [-]; NaN outside the domain.
-
-    Notes
-    -----
-    **Validity.** As `pendular.laws.willett2000.rupture_star` for equal spheres.
-
-    References
-    ----------
-    .. [1] C. D. Willett, M. J. Adams, S. A. Johnson, J. P. K. Seville, Langmuir 16 (2000) 9396,
-       doi:10.1021/la000657y.
-
-    Examples
-    --------
     >>> f"{rupture_star(1e-3, 0.0, 0.0, 1.0, 1.0):.6f}"
     '0.101000'
     """
@@ -106,36 +62,10 @@ def force_star(
             {1 + 0.8438\, \alpha^{-0.724} s + 1.3393\, \alpha^{-1.459} s^2} \\
         s &= \frac{D}{D_c} \left[ 1 + \tfrac12 \theta \cos\theta \cos(\alpha + \theta) \right]
 
-    Parameters
-    ----------
-    separation_star : float
-        Whole gap over the Derjaguin radius, [-], >= 0.
-    volume_star : float
-        Reduced volume, [-], > 0.
-    contact_angle1, contact_angle2 : float
-        Contact angles, [rad], equal, 0 to π/2.
-    kappa1, kappa2 : float
-        Derjaguin radius over the radius of each solid, [-]; not used.
+    Against exact bridges of equal spheres, V* = 1e-5 to 0.1: within 0.5 % at contact up to 40 degrees; up to 0.9 of the
+    rupture distance within 12 % up to 20 degrees and 26 % up to 40 degrees.
 
-    Returns
-    -------
-    float
-        Force over 2πγ times the Derjaguin radius, [-]; 0.0 beyond rupture, NaN outside the domain.
-
-    Notes
-    -----
-    **Validity.** Against exact bridges of equal spheres, V* = 1e-5 to 0.1: within 0.5 % at contact up to 40 degrees; up
-    to 0.9 of the rupture distance within 12 % up to 20 degrees and 26 % up to 40 degrees.
-
-    References
-    ----------
-    .. [1] G. Lian, J. Seville, Advances in Colloid and Interface Science 227 (2016), doi:10.1016/j.cis.2015.11.003.
-
-    Examples
-    --------
-    The exact force is 0.8844.
-
-    >>> f"{force_star(0.0, 1e-2, 0.0, 0.0, 1.0, 1.0):.4f}"
+    >>> f"{force_star(0.0, 1e-2, 0.0, 0.0, 1.0, 1.0):.4f}"  # exact: 0.8844
     '0.8847'
     >>> force_star(0.3, 1e-2, 0.0, 0.0, 1.0, 1.0)
     0.0
@@ -168,7 +98,6 @@ LAW = Law(
     solids={"force": Solids("equal", "mean", "mean"), "rupture": Solids("equal", "mean", "mean")},
     reference="G. Lian, J. Seville, Advances in Colloid and Interface Science 227 (2016)",
     doi="10.1016/j.cis.2015.11.003",
-    equations="",
     formula="""\
 α = V^0.26 + (0.285 - 0.4594 θ) V^(0.6327 + 0.897 θ)
 F/(γR̄) = (2π - 2.082 α^0.9197) [cos θ - 0.16 α (1 + α) tan θ]/[1 + 0.8438 α^(-0.724) s + 1.3393 α^(-1.459) s²]
@@ -180,6 +109,11 @@ gap D and volume V reduced by R̄ = 2R₁R₂/(R₁+R₂)""",
         "The volume must be reduced. A transcription that takes it in cubic metres is in circulation; its force with a "
         "gap is below a hundredth of the exact one.",
     ),
+    steps={
+        half_filling_angle_at_contact: (
+            Variable("half_filling_angle", "rad", "half-filling angle between touching spheres", 0.0, math.pi),
+        )
+    },
     force_star=force_star,
     rupture_star=rupture_star,
 )

@@ -44,7 +44,8 @@ The map of its error is ``docs/images/pendular2026_error.png``.
 import math
 
 from ..ground.compile import kernel
-from ._record import ANY_SOLIDS, CONTACT_ANGLE, SEPARATION, SIZE_RATIO, SUCTION, Law
+from ._record import ANY_SOLIDS, Law
+from ._symbols import ANSWERS, CONTACT_ANGLE, SEPARATION, SIZE_RATIO, SUCTION, Variable
 from .asymptotic import moments
 
 __all__ = ["COEFFICIENTS", "LAW", "evaluate", "force_star", "rupture_star"]
@@ -101,34 +102,12 @@ def evaluate(
     kappa1: float,
     kappa2: float,
 ) -> tuple[float, float]:
-    r"""Rupture distance and force of the law with any coefficients.
+    """Rupture distance and force of the law with any coefficients.
 
-    Parameters
-    ----------
-    coefficients : tuple of float
-        :math:`a_1, a_2, a_3`, [-].
-    separation_star, suction_star, contact_angle1, contact_angle2, kappa1, kappa2 : float
-        As for `force_star`.
-
-    Returns
-    -------
-    tuple of float
-        Whole gap at rupture, and force over 2πγ times the Derjaguin radius, [-].
-
-    Notes
-    -----
-    **Validity.** As `force_star` for the fitted coefficients; without any, (0, 0, 0), the limits remain exact.
-
-    References
-    ----------
-    .. [1] Derived for this library.
-
-    Examples
-    --------
-    At H* = 1 the exact rupture distance is 0.2811 and the exact force in the middle 0.5839. Without fitted numbers:
+    Without fitted numbers, (0, 0, 0), the limits remain exact.
 
     >>> rupture, force = evaluate((0.0, 0.0, 0.0), 0.14054448, 1.0, 0.0, 0.0, 1.0, 1.0)
-    >>> f"{rupture:.4f} {force:.4f}"
+    >>> f"{rupture:.4f} {force:.4f}"  # exact: 0.2811 0.5839
     '0.2675 0.5226'
     """
     if not (suction_star >= 0.0 and 0.0 <= contact_angle1 < 0.5 * math.pi and 0.0 <= contact_angle2 < 0.5 * math.pi):
@@ -160,35 +139,11 @@ def rupture_star(
 
     .. math:: D_c = 2 A \cos\theta\, x^3 \big/ \left[ 1 + kx + k^2 x^2 + (k^3 - 1 - C)\, x^3 + w x^4 \right]
 
-    Parameters
-    ----------
-    suction_star : float
-        Reduced suction, [-], >= 0.
-    contact_angle1, contact_angle2 : float
-        Contact angles, [rad], 0 to π/2.
-    kappa1, kappa2 : float
-        Derjaguin radius over the radius of each solid, [-], 0 for a plane.
+    Equal spheres and angles: within 0.070 % of exact bridges at any suction, up to 80 degrees, and closer still beyond.
+    Equal spheres with two angles: within 1.4 % for H* >= 10, 9.1 % at any suction. Any two solids: within 0.4 % for H*
+    >= 100 and 0.02 % for H* >= 1000.
 
-    Returns
-    -------
-    float
-        Whole gap at rupture, [-]; NaN outside the domain.
-
-    Notes
-    -----
-    **Validity.** Equal spheres and angles: within 0.070 % of exact bridges at any suction, up to 80 degrees, and closer
-    still beyond. Equal spheres with two angles: within 1.4 % for H* >= 10, 9.1 % at any suction. Any two solids: within
-    0.4 % for H* >= 100 and 0.02 % for H* >= 1000.
-
-    References
-    ----------
-    .. [1] Derived for this library.
-
-    Examples
-    --------
-    The exact distance is 0.0145895.
-
-    >>> f"{rupture_star(100.0, 0.0, 0.0, 1.0, 1.0):.7f}"
+    >>> f"{rupture_star(100.0, 0.0, 0.0, 1.0, 1.0):.7f}"  # exact: 0.0145895
     '0.0145883'
     """
     return evaluate(COEFFICIENTS, 0.0, suction_star, contact_angle1, contact_angle2, kappa1, kappa2)[0]
@@ -210,37 +165,11 @@ def force_star(
         \lambda &= Y_0 + \tfrac12 H Y_0^2, \qquad Y_0 = Y_f + us, \qquad (3 + \sigma u)\, u^2 = 3\, (1 + \sigma u) \\
         s^2 &= \tfrac13 \left[ 1 + a_3 (1 - \rho)\, x^3 \right] (D_c - D), \qquad \sigma = H s/m_f
 
-    Parameters
-    ----------
-    separation_star : float
-        Whole gap over the Derjaguin radius, [-].
-    suction_star : float
-        Reduced suction, [-], >= 0.
-    contact_angle1, contact_angle2 : float
-        Contact angles, [rad], 0 to π/2.
-    kappa1, kappa2 : float
-        Derjaguin radius over the radius of each solid, [-], 0 for a plane.
+    Equal spheres and angles, up to 0.99 of the rupture distance: within 0.57 % of exact bridges at any suction, up to
+    80 degrees, and closer still beyond. Up to 0.9 of the rupture distance: equal spheres with two angles within 2.3 %
+    for H* >= 10, any two solids within 1.1 % for H* >= 100 and 0.12 % for H* >= 1000.
 
-    Returns
-    -------
-    float
-        Force over 2πγ times the Derjaguin radius, [-]; 0.0 beyond rupture, NaN outside the domain.
-
-    Notes
-    -----
-    **Validity.** Equal spheres and angles, up to 0.99 of the rupture distance: within 0.57 % of exact bridges at any
-    suction, up to 80 degrees, and closer still beyond. Up to 0.9 of the rupture distance: equal spheres with two angles
-    within 2.3 % for H* >= 10, any two solids within 1.1 % for H* >= 100 and 0.12 % for H* >= 1000.
-
-    References
-    ----------
-    .. [1] Derived for this library.
-
-    Examples
-    --------
-    The exact force is 0.948027.
-
-    >>> f"{force_star(0.0, 100.0, 0.0, 0.0, 1.0, 1.0):.6f}"
+    >>> f"{force_star(0.0, 100.0, 0.0, 0.0, 1.0, 1.0):.6f}"  # exact: 0.948027
     '0.947600'
     >>> force_star(0.015, 100.0, 0.0, 0.0, 1.0, 1.0)
     0.0
@@ -261,8 +190,6 @@ LAW = Law(
     valid_text="equal spheres and angles at any suction; any two solids for suction_star >= 100",
     solids={"force": ANY_SOLIDS, "rupture": ANY_SOLIDS},
     reference="derived for this library",
-    doi="",
-    equations="",
     formula="""\
 D_c = 2 A cos θ x³/[1 + k x + k² x² + (k³ - 1 - C) x³ + w x⁴]
   x = (1 + A H)^(-1/3),  k = 3ρ/2,  ρ = A/cos θ,  w = 9/(16 + 8x) - a₁ (1 - ρ⁵)
@@ -275,6 +202,8 @@ F/(2πγR̄) = Y0 + H Y0²/2
 a₁ = {}, a₂ = {}, a₃ = {}
 suction H, gap D, neck radius Y0 reduced by R̄ = 2R₁R₂/(R₁+R₂), κᵢ = R̄/Rᵢ, sides i = 1, 2""".format(*COEFFICIENTS),
     provenance="exact limits derived for this library; three numbers fitted to exact bridges of equal spheres",
+    steps={evaluate: (ANSWERS["rupture"], ANSWERS["force"])},
+    symbols=(Variable("coefficients", "-", "the numbers a₁, a₂, a₃"),),
     force_star=force_star,
     rupture_star=rupture_star,
 )

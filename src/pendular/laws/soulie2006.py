@@ -8,7 +8,8 @@ import math
 
 from ..ground.compile import kernel
 from ._domain import one_angle
-from ._record import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME, Law, Solids
+from ._record import Law, Solids
+from ._symbols import CONTACT_ANGLE, GAP, SIZE_RATIO, VOLUME
 
 __all__ = ["LAW", "force_star"]
 
@@ -30,40 +31,13 @@ def force_star(
         a &= -1.1\, v^{-0.53}, \quad b = (-0.148 \ln v - 0.96)\, \theta^2 - 0.0082 \ln v + 0.48, \quad
         c = 0.0018 \ln v + 0.078
 
-    Parameters
-    ----------
-    separation_star : float
-        Whole gap over the Derjaguin radius, [-], >= 0.
-    volume_star : float
-        Reduced volume, [-], > 0.
-    contact_angle1, contact_angle2 : float
-        Contact angles, [rad], equal, 0 to π/2.
-    kappa1, kappa2 : float
-        Derjaguin radius over the radius of each solid, [-], > 0.
+    Against exact bridges of equal spheres, up to 0.9 of their rupture distance: within 13 % for V* = 1e-3 to 0.1 and
+    angles up to 20 degrees. At 40 degrees and contact 19 to 32 % too large, and 50 % at V* = 1e-4: for small volumes
+    the fitted force grows with the angle. At contact of unequal spheres, zero angle, V* = 1e-2: 6, 27 and 64 % too
+    large at the ratios 2, 4 and 8. The law has no rupture distance: it gives a force at every separation, which tends
+    to πγc√(R₁R₂).
 
-    Returns
-    -------
-    float
-        Force over 2πγ times the Derjaguin radius, [-]; NaN outside the domain, and for a plane.
-
-    Notes
-    -----
-    **Validity.** Against exact bridges of equal spheres, up to 0.9 of their rupture distance: within 13 % for V* = 1e-3
-    to 0.1 and angles up to 20 degrees. At 40 degrees and contact 19 to 32 % too large, and 50 % at V* = 1e-4: for small
-    volumes the fitted force grows with the angle. At contact of unequal spheres, zero angle, V* = 1e-2: 6, 27 and 64 %
-    too large at the ratios 2, 4 and 8. The law has no rupture distance: it gives a force at every separation, which
-    tends to πγc√(R₁R₂).
-
-    References
-    ----------
-    .. [1] F. Soulié, F. Cherblanc, M. S. El Youssoufi, C. Saix, International Journal for Numerical and Analytical
-       Methods in Geomechanics 30 (2006) 213, doi:10.1002/nag.476.
-
-    Examples
-    --------
-    The exact force is 0.8844.
-
-    >>> f"{force_star(0.0, 1e-2, 0.0, 0.0, 1.0, 1.0):.4f}"
+    >>> f"{force_star(0.0, 1e-2, 0.0, 0.0, 1.0, 1.0):.4f}"  # exact: 0.8844
     '0.8740'
     """
     larger = min(kappa1, kappa2)  # R̄/R2
@@ -94,7 +68,6 @@ LAW = Law(
     reference="F. Soulié, F. Cherblanc, M. S. El Youssoufi, C. Saix, International Journal for Numerical and "
     "Analytical Methods in Geomechanics 30 (2006) 213",
     doi="10.1002/nag.476",
-    equations="",
     formula="""\
 F = πγ √(R₁R₂) [c + exp(a D/R₂ + b)],  v = V/R₂³,  R₂ ≥ R₁
   a = -1.1 v^(-0.53)

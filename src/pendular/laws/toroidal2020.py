@@ -10,7 +10,8 @@ With a circle as meridian and :math:`P = |X_c|/Y_c`, :math:`Q = Y_0/Y_c` the geo
 import math
 
 from ..ground.compile import kernel
-from ._record import CONTACT_ANGLE, SEPARATION, SIZE_RATIO, SUCTION, Law, Solids
+from ._record import Law, Solids
+from ._symbols import CONTACT_ANGLE, SEPARATION, SIZE_RATIO, SUCTION, Variable
 
 __all__ = [
     "LAW",
@@ -33,36 +34,17 @@ def neck_radius(contact_radius_star: float, suction_star: float, contact_angle: 
 
     .. math:: Y_0 = -\frac1H + \sqrt{\frac{2 Y_c (T+Y_c)}{H r} + \frac1{H^2} + Y_c^2} \qquad \text{(Eq. 22)}
 
-    Parameters
-    ----------
-    contact_radius_star : float
-        Radius of the contact circle over the Derjaguin radius, [-].
-    suction_star : float
-        Reduced suction, [-], > 0.
-    contact_angle : float
-        [rad], 0 to π/2.
+    Small bridges: the balance is linearised in the contact radius.
 
-    Returns
-    -------
-    float
-        Neck radius over the Derjaguin radius, [-].
-
-    Notes
-    -----
-    **Validity.** Small bridges: the balance is linearised in the contact radius.
-
-    References
-    ----------
-    .. [1] C.-F. Zhao, N. P. Kruyt, O. Millet, Powder Technology 360 (2020) 622-634.
-
-    Examples
-    --------
     >>> f"{neck_radius(0.014, 1e4, 0.0):.6f}"
     '0.013902'
     """
     t = math.tan(contact_angle)
     balance = 2.0 * contact_radius_star * (t + contact_radius_star) / (suction_star * math.sqrt(t * t + 1.0))
-    return math.sqrt(balance + 1.0 / suction_star**2 + contact_radius_star**2) - 1.0 / suction_star
+    return (
+        math.sqrt(balance + 1.0 / (suction_star * suction_star) + contact_radius_star * contact_radius_star)
+        - 1.0 / suction_star
+    )
 
 
 @kernel
@@ -71,37 +53,13 @@ def half_gap(contact_radius_star: float, suction_star: float, contact_angle: flo
 
     .. math:: S = (r+T) Y_c - Y_c^2/2 - (r+T)\, Y_0(Y_c, H) \qquad \text{(Eqs. 21, 23)}
 
-    Parameters
-    ----------
-    contact_radius_star : float
-        Radius of the contact circle over the Derjaguin radius, [-].
-    suction_star : float
-        Reduced suction, [-], > 0.
-    contact_angle : float
-        [rad], 0 to π/2.
-
-    Returns
-    -------
-    float
-        Half the gap over the Derjaguin radius, [-].
-
-    Notes
-    -----
-    **Validity.** As `neck_radius`.
-
-    References
-    ----------
-    .. [1] C.-F. Zhao, N. P. Kruyt, O. Millet, Powder Technology 360 (2020) 622-634.
-
-    Examples
-    --------
     >>> f"{half_gap(0.002, 1e4, 0.0):.3e}"
     '9.530e-05'
     """
     t = math.tan(contact_angle)
     slope = math.sqrt(t * t + 1.0) + t
     neck = neck_radius(contact_radius_star, suction_star, contact_angle)
-    return slope * (contact_radius_star - neck) - 0.5 * contact_radius_star**2
+    return slope * (contact_radius_star - neck) - 0.5 * contact_radius_star * contact_radius_star
 
 
 @kernel
@@ -112,30 +70,8 @@ def quartic_coefficients(
 
     .. math:: K_4 Y_c^4 + K_3 Y_c^3 + K_2 Y_c^2 + K_1 Y_c + K_0 = 0 \qquad \text{(Eqs. 24, 34)}
 
-    Parameters
-    ----------
-    half_gap_star : float
-        Half the gap over the Derjaguin radius, [-].
-    suction_star : float
-        Reduced suction, [-], > 0.
-    contact_angle : float
-        [rad], 0 to π/2.
+    Same roots as `half_gap`, besides those that squaring adds.
 
-    Returns
-    -------
-    tuple of float
-        The coefficients from the fourth power down, [-].
-
-    Notes
-    -----
-    **Validity.** Same roots as `half_gap`, besides those that squaring adds.
-
-    References
-    ----------
-    .. [1] C.-F. Zhao, N. P. Kruyt, O. Millet, Powder Technology 360 (2020) 622-634.
-
-    Examples
-    --------
     >>> quartic_coefficients(0.0, 2.0, 0.0)
     (2.0, -8.0, -12.0, 8.0, -0.0)
     """
@@ -156,37 +92,15 @@ def quartic_discriminant(half_gap_star: float, suction_star: float, contact_angl
     .. math:: \Delta = (4 I^3 - J^2)/27, \quad I = 12 K_4 K_0 - 3 K_3 K_1 + K_2^2, \quad
         J = 72 K_4 K_2 K_0 + 9 K_3 K_2 K_1 - 27 K_4 K_1^2 - 27 K_3^2 K_0 - 2 K_2^3
 
-    Parameters
-    ----------
-    half_gap_star : float
-        Half the gap over the Derjaguin radius, [-].
-    suction_star : float
-        Reduced suction, [-], > 0.
-    contact_angle : float
-        [rad], 0 to π/2.
+    Exact for Eq. (24). Eq. (25) is the leading expansion of its zero for large suction.
 
-    Returns
-    -------
-    float
-        The discriminant, [-].
-
-    Notes
-    -----
-    **Validity.** Exact for Eq. (24). Eq. (25) is the leading expansion of its zero for large suction.
-
-    References
-    ----------
-    .. [1] C.-F. Zhao, N. P. Kruyt, O. Millet, Powder Technology 360 (2020) 622-634, Appendix B.
-
-    Examples
-    --------
     >>> quartic_discriminant(0.9e-4, 1e4, 0.0) > 0.0 > quartic_discriminant(1.0e-4, 1e4, 0.0)
     True
     """
     k4, k3, k2, k1, k0 = quartic_coefficients(half_gap_star, suction_star, contact_angle)
     i = 12.0 * k4 * k0 - 3.0 * k3 * k1 + k2 * k2
-    j = 72.0 * k4 * k2 * k0 + 9.0 * k3 * k2 * k1 - 27.0 * (k4 * k1 * k1 + k3 * k3 * k0) - 2.0 * k2**3
-    return (4.0 * i**3 - j * j) / 27.0
+    j = 72.0 * k4 * k2 * k0 + 9.0 * k3 * k2 * k1 - 27.0 * (k4 * k1 * k1 + k3 * k3 * k0) - 2.0 * k2 * k2 * k2
+    return (4.0 * i * i * i - j * j) / 27.0
 
 
 @kernel
@@ -199,30 +113,8 @@ def contact_radius(half_gap_star: float, suction_star: float, contact_angle: flo
         \cos 3\varphi &= \frac{27 K_0 K_3^2 - 9 K_1 K_2 K_3 + 2 K_2^3}{2 \sqrt{(K_2^2 - 3 K_1 K_3)^3}}
         \qquad \text{(Eq. 28)}
 
-    Parameters
-    ----------
-    half_gap_star : float
-        Half the gap over the Derjaguin radius, [-].
-    suction_star : float
-        Reduced suction, [-], > 0.
-    contact_angle : float
-        [rad], 0 to π/2.
+    NaN where the cubic has one real root only.
 
-    Returns
-    -------
-    float
-        Radius of the contact circle over the Derjaguin radius, [-]; NaN where the cubic has one real root only.
-
-    Notes
-    -----
-    **Validity.** Stated for H* >= 1e4 and angles up to 40 degrees.
-
-    References
-    ----------
-    .. [1] C.-F. Zhao, N. P. Kruyt, O. Millet, Powder Technology 360 (2020) 622-634.
-
-    Examples
-    --------
     >>> f"{contact_radius(0.0, 1e4, 0.0):.6f}"
     '0.013993'
     """
@@ -230,7 +122,7 @@ def contact_radius(half_gap_star: float, suction_star: float, contact_angle: flo
     spread = k2 * k2 - 3.0 * k1 * k3
     if not spread > 0.0:
         return math.nan
-    cos_3phi = (27.0 * k0 * k3 * k3 - 9.0 * k1 * k2 * k3 + 2.0 * k2**3) / (2.0 * spread * math.sqrt(spread))
+    cos_3phi = (27.0 * k0 * k3 * k3 - 9.0 * k1 * k2 * k3 + 2.0 * k2 * k2 * k2) / (2.0 * spread * math.sqrt(spread))
     if not abs(cos_3phi) <= 1.0:
         return math.nan
     # With K3 < 0 the principal angle gives the largest root, the thick bridge.
@@ -244,26 +136,8 @@ def beta_series(contact_angle: float) -> float:
 
     .. math:: \beta = \frac{27}{32} + \frac{27}{16} T + \frac{81}{64} T^2 \qquad \text{(Eq. 36)}
 
-    Parameters
-    ----------
-    contact_angle : float
-        [rad], 0 to π/2.
+    Expansion of `beta_torus` for small angles, stated for angles up to 40 degrees.
 
-    Returns
-    -------
-    float
-        The coefficient, [-].
-
-    Notes
-    -----
-    **Validity.** Expansion of `beta_torus` for small angles, stated for angles up to 40 degrees.
-
-    References
-    ----------
-    .. [1] C.-F. Zhao, N. P. Kruyt, O. Millet, Powder Technology 360 (2020) 622-634.
-
-    Examples
-    --------
     >>> beta_series(0.0)
     0.84375
     """
@@ -277,26 +151,8 @@ def beta_torus(contact_angle: float) -> float:
 
     .. math:: \beta = \frac{27}{32} \frac{(1+\sin\theta)^2}{\cos\theta}
 
-    Parameters
-    ----------
-    contact_angle : float
-        [rad], 0 to π/2.
+    The zero of `quartic_discriminant` for large suction; not in the article.
 
-    Returns
-    -------
-    float
-        The coefficient, [-].
-
-    Notes
-    -----
-    **Validity.** The zero of `quartic_discriminant` for large suction; not in the article.
-
-    References
-    ----------
-    .. [1] C.-F. Zhao, N. P. Kruyt, O. Millet, Powder Technology 360 (2020) 622-634, Appendix B.
-
-    Examples
-    --------
     >>> beta_torus(0.0) == beta_series(0.0)
     True
     """
@@ -309,30 +165,8 @@ def half_gap_at_rupture(beta: float, suction_star: float, contact_angle: float) 
 
     .. math:: S_c = \frac{1}{H r} \left\{ 1 - (\beta/H)^{1/3} \right\} \qquad \text{(Eqs. 25, 35)}
 
-    Parameters
-    ----------
-    beta : float
-        `beta_series`, `beta_torus`, or the exact coefficient, [-].
-    suction_star : float
-        Reduced suction, [-], > 0.
-    contact_angle : float
-        [rad], 0 to π/2.
+    NaN for H* <= β. Two terms of an expansion for large suction.
 
-    Returns
-    -------
-    float
-        Half the gap over the Derjaguin radius, [-]; NaN for H* <= β.
-
-    Notes
-    -----
-    **Validity.** Two terms of an expansion for large suction.
-
-    References
-    ----------
-    .. [1] C.-F. Zhao, N. P. Kruyt, O. Millet, Powder Technology 360 (2020) 622-634.
-
-    Examples
-    --------
     >>> f"{half_gap_at_rupture(beta_series(0.0), 1e4, 0.0):.4e}"
     '9.5614e-05'
     """
@@ -351,30 +185,8 @@ def rupture_star(
     .. math:: 2S_c = \frac{2}{H r} \left\{ 1 - \left[ \left( \frac{27}{32} + \frac{27}{16} T + \frac{81}{64} T^2 \right)
         \frac1H \right]^{1/3} \right\} \qquad \text{(Eq. 25)}
 
-    Parameters
-    ----------
-    suction_star : float
-        Reduced suction, [-], > 0.
-    contact_angle1, contact_angle2 : float
-        Contact angles, [rad], equal, 0 to π/2.
-    kappa1, kappa2 : float
-        Derjaguin radius over the radius of each solid, [-]; not used.
+    NaN where the expansion is negative.
 
-    Returns
-    -------
-    float
-        Whole gap at rupture, [-]; NaN where the angles differ or the expansion is negative.
-
-    Notes
-    -----
-    **Validity.** Stated for H* >= 1e4 and angles up to 40 degrees.
-
-    References
-    ----------
-    .. [1] C.-F. Zhao, N. P. Kruyt, O. Millet, Powder Technology 360 (2020) 622-634.
-
-    Examples
-    --------
     >>> f"{rupture_star(1e4, 0.0, 0.0, 1.0, 1.0):.4e}"
     '1.9123e-04'
     """
@@ -396,33 +208,8 @@ def force_star(
 
     .. math:: \lambda = Y_0 + H Y_0^2/2 \qquad \text{(Eqs. 22, 26, 28)}
 
-    Parameters
-    ----------
-    separation_star : float
-        Whole gap over the Derjaguin radius, [-].
-    suction_star : float
-        Reduced suction, [-], > 0.
-    contact_angle1, contact_angle2 : float
-        Contact angles, [rad], equal, 0 to π/2.
-    kappa1, kappa2 : float
-        Derjaguin radius over the radius of each solid, [-]; not used.
+    Where Eq. (25) overestimates the fold of the cubic a sliver below rupture has no answer and gives NaN.
 
-    Returns
-    -------
-    float
-        Force over 2πγ times the Derjaguin radius, [-]; 0.0 beyond rupture, NaN outside the domain.
-
-    Notes
-    -----
-    **Validity.** Stated for H* >= 1e4 and angles up to 40 degrees. Where Eq. (25) overestimates the fold of the cubic
-    a sliver below rupture has no answer and gives NaN.
-
-    References
-    ----------
-    .. [1] C.-F. Zhao, N. P. Kruyt, O. Millet, Powder Technology 360 (2020) 622-634.
-
-    Examples
-    --------
     >>> f"{force_star(0.0, 1e4, 0.0, 0.0, 1.0, 1.0):.4f}"
     '0.9792'
     >>> force_star(2e-4, 1e4, 0.0, 0.0, 1.0, 1.0)
@@ -439,6 +226,11 @@ def force_star(
     return y_0 + 0.5 * suction_star * y_0 * y_0  # Eq. (26)
 
 
+NECK_RADIUS = Variable("neck_radius_star", "-", "radius of the neck over the Derjaguin radius", 0.0)
+CONTACT_RADIUS = Variable("contact_radius_star", "-", "radius of the contact circle over the Derjaguin radius", 0.0)
+HALF_GAP = Variable("half_gap_star", "-", "half the gap over the Derjaguin radius")
+BETA = Variable("beta", "-", "coefficient of the rupture distance", 0.0)
+
 LAW = Law(
     name="toroidal2020",
     title="Toroidal theory of Zhao, Kruyt and Millet",
@@ -453,7 +245,6 @@ LAW = Law(
     valid_text="suction_star >= 1e4, angles up to 40 degrees",
     solids={"force": Solids("equal", "mean", "mean"), "rupture": Solids("equal", "mean", "mean")},
     reference="C.-F. Zhao, N. P. Kruyt, O. Millet, Powder Technology 360 (2020) 622-634",
-    doi="",
     equations="17-28, 34-36",
     formula="""\
 2S_c = (2/H) (1/r) {1 - [(27/32 + (27/16) T + (81/64) T²)/H]^(1/3)}     (25, 35, 36)
@@ -474,6 +265,16 @@ T = tan θ, r = √(T²+1); suction H, half gap S, neck and contact radius Y0, Y
         "zero angle, so that the rupture distance is too large.",
         "Eq. (27) is said to have three real roots; just below the rupture distance of Eq. (25) it can have one only.",
     ),
+    steps={
+        neck_radius: (NECK_RADIUS,),
+        half_gap: (HALF_GAP,),
+        quartic_coefficients: tuple(Variable(f"K{power}", "-", f"K{power}") for power in (4, 3, 2, 1, 0)),
+        quartic_discriminant: (Variable("discriminant", "-", "the discriminant"),),
+        contact_radius: (CONTACT_RADIUS,),
+        beta_series: (BETA,),
+        beta_torus: (BETA,),
+        half_gap_at_rupture: (HALF_GAP,),
+    },
     force_star=force_star,
     rupture_star=rupture_star,
 )

@@ -6,9 +6,11 @@ so the half gap of the article and the whole gap of the kernels agree there.
 """
 
 import math
+from dataclasses import replace
 
 from ..ground.compile import kernel
-from ._record import CONTACT_ANGLE, SEPARATION, SIZE_RATIO, SUCTION, Law, Solids
+from ._record import Law, Solids
+from ._symbols import ANSWERS, CONTACT_ANGLE, SEPARATION, SIZE_RATIO, SUCTION, Variable
 
 __all__ = ["LAW", "force_star", "force_star_given_rupture", "neck_radius_at_contact", "rupture_star"]
 
@@ -41,30 +43,8 @@ def rupture_star(
 
     with :math:`c_1, c_2` quadratic in :math:`T` (Eq. 37).
 
-    Parameters
-    ----------
-    suction_star : float
-        Reduced suction, [-], > 0.
-    contact_angle1, contact_angle2 : float
-        Contact angles, [rad], equal, 0 to π/2.
-    kappa1, kappa2 : float
-        Derjaguin radius over the radius of each solid, [-]; not used.
+    NaN where the fit is negative.
 
-    Returns
-    -------
-    float
-        Whole gap at rupture, [-]; NaN where the angles differ or the fit is negative.
-
-    Notes
-    -----
-    **Validity.** Stated for H* >= 1 and angles of 0, 20 and 40 degrees, unequal spheres for H* >= 100.
-
-    References
-    ----------
-    .. [1] C.-F. Zhao, N. P. Kruyt, O. Millet, Powder Technology 360 (2020) 622-634.
-
-    Examples
-    --------
     >>> f"{rupture_star(100.0, 0.0, 0.0, 1.0, 1.0):.6f}"
     '0.014574'
     """
@@ -86,28 +66,6 @@ def neck_radius_at_contact(suction_star: float, contact_angle: float) -> float:
 
     with :math:`p_i` quadratic in :math:`T` (Eq. 38).
 
-    Parameters
-    ----------
-    suction_star : float
-        Reduced suction, [-], > 0.
-    contact_angle : float
-        [rad], 0 to π/2.
-
-    Returns
-    -------
-    float
-        Neck radius over the Derjaguin radius, [-].
-
-    Notes
-    -----
-    **Validity.** Stated for H* >= 1 and angles of 0, 20 and 40 degrees.
-
-    References
-    ----------
-    .. [1] C.-F. Zhao, N. P. Kruyt, O. Millet, Powder Technology 360 (2020) 622-634.
-
-    Examples
-    --------
     >>> f"{neck_radius_at_contact(100.0, 0.0):.6f}"
     '0.127930'
     """
@@ -129,35 +87,11 @@ def force_star_given_rupture(
 
     with :math:`A, B` quadratic in :math:`\ln H` (Eq. 32) and their coefficients quadratic in :math:`T` (Eqs. 39, 40).
 
-    Parameters
-    ----------
-    separation_star, separation_at_rupture_star : float
-        Whole gap, and whole gap at rupture, over the Derjaguin radius, [-].
-    suction_star : float
-        Reduced suction, [-], > 0.
-    contact_angle : float
-        [rad], 0 to π/2.
+    NaN where the rupture distance, the suction or the fitted neck radius is not positive. The coefficients were
+    evidently fitted with the exact rupture distance: at low suction the law is far more accurate with it than with Eq.
+    (29).
 
-    Returns
-    -------
-    float
-        Force over 2πγ times the Derjaguin radius, [-]; 0.0 beyond rupture, NaN where the rupture distance, the suction
-        or the fitted neck radius is not positive.
-
-    Notes
-    -----
-    **Validity.** Stated for H* >= 1 and angles of 0, 20 and 40 degrees. The coefficients were evidently fitted with
-    the exact rupture distance: at low suction the law is far more accurate with it than with Eq. (29).
-
-    References
-    ----------
-    .. [1] C.-F. Zhao, N. P. Kruyt, O. Millet, Powder Technology 360 (2020) 622-634.
-
-    Examples
-    --------
-    The exact bridge at H* = 1 and half its exact rupture distance has 0.5839.
-
-    >>> f"{force_star_given_rupture(0.14054448, 0.28108896, 1.0, 0.0):.4f}"
+    >>> f"{force_star_given_rupture(0.14054448, 0.28108896, 1.0, 0.0):.4f}"  # exact: 0.5839
     '0.5829'
     """
     if not (separation_at_rupture_star > 0.0 and suction_star > 0.0):
@@ -189,32 +123,8 @@ def force_star(
 
     .. math:: \lambda = Y_0 + H Y_0^2/2 \qquad \text{(Eqs. 26, 29 to 32)}
 
-    Parameters
-    ----------
-    separation_star : float
-        Whole gap over the Derjaguin radius, [-].
-    suction_star : float
-        Reduced suction, [-], > 0.
-    contact_angle1, contact_angle2 : float
-        Contact angles, [rad], equal, 0 to π/2.
-    kappa1, kappa2 : float
-        Derjaguin radius over the radius of each solid, [-]; not used.
+    `force_star_given_rupture` takes the exact rupture distance instead of the fit.
 
-    Returns
-    -------
-    float
-        Force over 2πγ times the Derjaguin radius, [-]; 0.0 beyond rupture, NaN outside the domain.
-
-    Notes
-    -----
-    **Validity.** As `rupture_star`; `force_star_given_rupture` takes the exact rupture distance instead of the fit.
-
-    References
-    ----------
-    .. [1] C.-F. Zhao, N. P. Kruyt, O. Millet, Powder Technology 360 (2020) 622-634.
-
-    Examples
-    --------
     >>> f"{force_star(0.0, 100.0, 0.0, 0.0, 1.0, 1.0):.4f}"
     '0.9462'
     >>> force_star(0.02, 100.0, 0.0, 0.0, 1.0, 1.0)
@@ -238,7 +148,6 @@ LAW = Law(
     valid_text="fitted at 0, 20 and 40 degrees for suction_star >= 1; unequal spheres for suction_star >= 100",
     solids={"force": Solids("equal", "mean", "mean"), "rupture": Solids("equal", "mean", "mean")},
     reference="C.-F. Zhao, N. P. Kruyt, O. Millet, Powder Technology 360 (2020) 622-634",
-    doi="",
     equations="26, 29-32, 37-40",
     formula="""\
 2S_c = (2/H) (1/√(T²+1)) [1 + c1 H^(-1/3) + c2 H^(-2/3)]                (29)
@@ -263,6 +172,11 @@ T = tan θ; suction H, half gap S and neck radius Y0 reduced by R̄ = 2R₁R₂/
         "Eq. (31) needs the exact rupture distance: with Eq. (29) the force is several per cent off at low suction.",
         "The stated 1 % of the force is met only relative to the force at contact; near rupture the error is larger.",
     ),
+    steps={
+        neck_radius_at_contact: (Variable("neck_radius_star", "-", "neck radius over the Derjaguin radius", 0.0),),
+        force_star_given_rupture: (ANSWERS["force"],),
+    },
+    symbols=(replace(ANSWERS["rupture"], name="separation_at_rupture_star"),),
     force_star=force_star,
     rupture_star=rupture_star,
 )

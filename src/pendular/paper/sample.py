@@ -13,7 +13,8 @@ from ..ask.face import bridge, curve, rupture
 from ..ask.liquid import Liquid
 from ..ask.pair import Pair
 from ..ask.result import Bridge
-from ..laws import force_star, laws, rupture_star, toroidal2020, zhao2020
+from ..laws import force_star, rupture_star, toroidal2020, zhao2020
+from ..laws._registry import house_laws
 
 Floats = NDArray[np.float64]
 
@@ -21,7 +22,9 @@ LIQUID = Liquid(surface_tension=1.0)
 ANGLES = (0.0, 20.0, 40.0)  # [degrees], those of the article, as are the ratios of the radii and the suctions
 RATIOS = (1.0, 2.0, 8.0, 128.0)
 SUCTIONS = (1.0, 25.0, 1e3, 1e5)
-OURS = tuple(name for name in laws if name not in ("zhao2020", "toroidal2020") and laws[name].control == "suction")
+OURS = tuple(
+    law.name for law in house_laws() if law.control == "suction" and law.name not in ("zhao2020", "toroidal2020")
+)
 
 
 def count(points: float, density: float) -> int:

@@ -8,7 +8,7 @@ from typing import Any
 
 from nicegui import run, ui
 
-from ...laws import laws
+from ...laws import Law
 from ..options import in_terms_of_options
 from .answer import Answer, answer_to
 from .curve_chart import curve_chart, law_style
@@ -22,7 +22,6 @@ from .view import CONTROLS, PLANE, PLOTTED, View, address, view_at
 __all__ = ["Explorer"]
 
 _ADDRESS_INTERVAL = 0.5  # s; browsers refuse more than a few changes of the address a second
-_PLACES = {name: place for place, name in enumerate(laws)}
 _BY_NAME, _GIVEN = "by name", "surface tension"
 _LIQUIDS = ["water", "ethanol", "glycerol", "ethylene glycol", "isopropanol", "acetone", "toluene", "mercury"]
 _SYMBOLS = (
@@ -42,6 +41,7 @@ class Explorer:
             wrong = [f"This address cannot be shown: {in_terms_of_options(str(error))}."]
             self._answer = answer_to(View())
         self._fields: dict[str, Field] = {}
+        self._places = {law.law.name: place for place, law in enumerate(self._answer.laws)}
         self._is_showing = False
         self._written_address = ""
         self._lay_out_pair()
@@ -120,18 +120,18 @@ class Explorer:
                     ui.html(f"At constant {held}", sanitize=False, tag="h3")
                     columns = '<span class="error">force, %</span><span class="error">rupture, %</span>'
                     ui.html(columns, sanitize=False).classes("errors")
-                for law in laws.values():
-                    if law.control == held:
-                        self._lay_out_law(law.name)
+                for answer in self._answer.laws:
+                    if answer.law.control == held:
+                        self._lay_out_law(answer.law)
             ui.html(_SYMBOLS, sanitize=False, tag="p").classes("symbols")
 
-    def _lay_out_law(self, name: str) -> None:
-        law = laws[name]
+    def _lay_out_law(self, law: Law) -> None:
+        name = law.name
         with ui.element("div").classes("law"):
             breakable = name.replace("_", "_\u200b")  # at the end of a narrow line
             tick = ui.checkbox(breakable, on_change=lambda: self._choose(laws=self._ticked())).props("dense")
             tick.tooltip(f"{law.title}. {law.reference}").set_enabled("force" in law.gives)
-            line = _swatch(*law_style(_PLACES[name])) if "force" in law.gives else ""
+            line = _swatch(*law_style(self._places[name])) if "force" in law.gives else ""
             ui.html(line, sanitize=False).classes("swatch")
             self._ticks[name] = tick
             self._errors[name] = ui.html(sanitize=False).classes("errors")
@@ -203,12 +203,13 @@ class Explorer:
     def _show(self, answer: Answer) -> None:
         self._answer = answer
         self._pair.set_content(pair_svg(answer))
-        self._chart.update_figure(curve_chart(answer, _PLACES))
+        self._chart.update_figure(curve_chart(answer, self._places))
         self._headline.set_content(headline(answer))
         self._notices.set_content(paragraphs(answer.notices))
         self._numbers.set_content(numbers(answer))
         for law in answer.laws:
-            self._errors[law.law.name].set_content(error_cells(law))
+            if law.law.name in self._errors:  # not one that was registered after the page was laid out
+                self._errors[law.law.name].set_content(error_cells(law))
         self._command.set_content(escape(command_line(answer)))
         self._program.set_content(escape(python_text(answer)))
         self._show_choices(answer.view)
