@@ -1,0 +1,254 @@
+"""Rows in plain Python and by machine code: the same answers, and no compiler where it is missing or not worth while."""
+
+import json
+import math
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import pendular as pl
+from pendular.exact import batch
+from pendular.exact.equations import SUCTION, VOLUME
+from pendular.exact.state import State
+from pendular.ground import native, rows
+
+SEED = 20261129
+ASKED = {"stable": batch.STABLE, "unstable": batch.UNSTABLE, "rupture": batch.RUPTURE, "lower": batch.LOWER_END}
+FLAT = {"stiffness"}  # infinite at the end of a branch, and steep next to it
+WITHOUT_NUMBA = """
+import sys
+from importlib.abc import MetaPathFinder
+
+class NoCompiler(MetaPathFinder):
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] in ("numba", "llvmlite"):
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+
+sys.meta_path.insert(0, NoCompiler())
+from pendular.ground import compile, native
+compile.find_spec = lambda name: None
+"""
+
+
+def questions(control, count=12):
+    """Random pairs, a fifth of them mirror images, at a small part of their scale apart."""
+    print(f"seed {SEED}")
+    random = np.random.default_rng(SEED + control)
+    k2, angles = random.uniform(0.0, 1.0, count), np.radians(random.uniform(0.0, 90.0, (2, count)))
+    k2[: count // 4], angles[1, : count // 4] = 1.0, angles[0, : count // 4]
+    value = 10.0 ** (random.uniform(-8, 0, count) if control == VOLUME else random.uniform(-2, 4, count))
+    gap = 0.2 * np.cbrt(value) if control == VOLUME else 0.1 / (1.0 + value)
+    return np.column_stack([gap, value, np.ones(count), angles[0], k2, angles[1]])
+
+
+@pytest.fixture
+def plain(monkeypatch):
+    """Everything in plain Python."""
+
+    def ask(*question):
+        with monkeypatch.context() as patch:
+            patch.setattr(rows, "has_compiler", lambda: False)
+            return batch.answer(*question)
+
+    return ask
+
+
+@pytest.fixture
+def by_machine(monkeypatch):
+    """Everything by machine code."""
+
+    def ask(*question):
+        with monkeypatch.context() as patch:
+            patch.setattr(rows, "_LOADING", -1.0)
+            patch.setattr(rows, "_PATIENCE", -1.0)
+            return batch.answer(*question)
+
+    return ask
+
+
+@pytest.mark.parametrize("asked", ASKED)
+@pytest.mark.parametrize("control", [SUCTION, VOLUME])
+def test_plain_python_and_machine_code_agree(control, asked, plain, by_machine):
+    question = questions(control)
+    plainly, plain_statuses = plain(ASKED[asked], control, question)
+    compiled, statuses = by_machine(ASKED[asked], control, question)
+    np.testing.assert_array_equal(plain_statuses, statuses)
+    tolerance = 1e-14 if asked == "stable" else 1e-9  # where the slope at the end of a branch vanishes
+    for field in set(State._fields) - FLAT:
+        column = State._fields.index(field)
+        np.testing.assert_allclose(plainly[:, column], compiled[:, column], rtol=tolerance, atol=1e-12, err_msg=field)
+
+
+@pytest.mark.parametrize("threads", ["1", "2", "5"])
+def test_the_number_of_threads_changes_no_bit(threads, by_machine, monkeypatch):
+    monkeypatch.setattr(batch, "_CHUNK", 7)
+    monkeypatch.setattr(rows, "thread_count", lambda: int(threads))
+    question = questions(VOLUME, 50)
+    states, _ = by_machine(batch.STABLE, VOLUME, question)
+    monkeypatch.setattr(batch, "_CHUNK", 1000)
+    np.testing.assert_array_equal(states, by_machine(batch.STABLE, VOLUME, question)[0])
+
+
+ASK_A_FEW = """
+import json, sys
+import numpy as np
+import pendular as pl
+pair, liquid = pl.Pair(1.0, 0.3), pl.Liquid(surface_tension=1.0)
+answers = [
+    pl.bridge(pair, 0.01, volume=1e-3, liquid=liquid).force,
+    pl.rupture(pair, suction=1.0, liquid=liquid).separation,
+    pl.curve(pair, volume=1e-3, liquid=liquid, points=21).force[3],
+    pl.bridge(pair, 0.01, suction=1.0, liquid=liquid).profile(5).y[2],
+    float(pl.laws.force_star("willett2000", 0.01, 1e-3, 0.0, 0.0, 1.0, 1.0)),
+    float(len(pl.compare(pair, volume=1e-3, liquid=liquid).laws)),
+]
+print(json.dumps([float(x) for x in answers] + ["numba" in sys.modules]))
+"""
+
+
+def answers_of(script):
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_a_few_questions_need_no_compiler():
+    """One bridge, rupture, curve, profile, law and comparison in a fresh interpreter, and in one without Numba."""
+    *with_numba, imported = answers_of(ASK_A_FEW)
+    assert not imported
+    *without, imported = answers_of(WITHOUT_NUMBA + ASK_A_FEW)
+    assert not imported
+    assert without == pytest.approx(with_numba, rel=1e-13)
+
+
+def test_many_questions_are_answered_without_a_compiler_too():
+    """A hundred bridges, contact forces and a table's force need no Numba, but time."""
+    script = """
+import json
+import numpy as np
+import pendular as pl
+volume = np.geomspace(1e-6, 1e-2, 100)
+print(json.dumps([float(pl.bridge(pl.Pair(1.0, 0.3), 0.0, volume=volume, liquid=pl.Liquid(surface_tension=1.0)).force.sum())]))
+"""
+    (found,) = answers_of(WITHOUT_NUMBA + script)
+    volume = np.geomspace(1e-6, 1e-2, 100)
+    force = pl.bridge(pl.Pair(1.0, 0.3), 0.0, volume=volume, liquid=pl.Liquid(surface_tension=1.0)).force
+    assert found == pytest.approx(force.sum(), rel=1e-13)
+
+
+def test_who_keeps_asking_is_answered_by_machine_code(monkeypatch):
+    chosen = []
+    monkeypatch.setattr(native, "load", lambda *_: chosen.append("load"))
+    monkeypatch.setattr(native, "build", lambda *_: chosen.append("build"))
+    monkeypatch.setattr(rows, "_spent", dict.fromkeys(rows._spent, 0.0))
+    batch.answer(batch.STABLE, SUCTION, questions(SUCTION, 2))
+    assert chosen == []
+    rows._spent[batch.bridge_range] = 1.0
+    batch.answer(batch.STABLE, SUCTION, questions(SUCTION, 2))
+    assert chosen == ["load"]
+    rows._spent[batch.bridge_range] = 10.0
+    batch.answer(batch.STABLE, SUCTION, questions(SUCTION, 2))
+    assert chosen == ["load", "load", "build"]
+
+
+# -- machine code on disk ----------------------------------------------------------------------------------------------
+
+SMALL = """
+import sys
+import numpy as np
+from pendular.ground import native, rows
+from own import double
+out = np.zeros(3)
+rows._LOADING = rows._PATIENCE = -1.0
+loads = native.load(double, (np.array([1.0, 2.0, 3.0]), out, 0, 3)) is not None
+rows.over_rows(double, 3, 2, np.array([1.0, 2.0, 3.0]), out)
+print(out.sum(), int(loads))
+"""
+OWN = """
+from factor import FACTOR
+from pendular.ground.compile import kernel
+from pendular.ground.rows import entry
+
+@kernel
+def doubled(x):
+    return FACTOR * x
+
+@entry(plain_cost=1.0)
+def double(x, out, start, stop):
+    for i in range(start, stop):
+        out[i] = doubled(x[i])
+"""
+
+
+@pytest.fixture
+def small(tmp_path):
+    (tmp_path / "own.py").write_text(OWN)
+    (tmp_path / "factor.py").write_text("FACTOR = 2.0\n")
+    (tmp_path / "run.py").write_text(SMALL)
+    return tmp_path
+
+
+def started(folder, cache="kept"):
+    import os
+
+    environment = os.environ | {"PENDULAR_CACHE_DIR": str(folder / cache), "PYTHONDONTWRITEBYTECODE": "1"}
+    return subprocess.Popen(
+        [sys.executable, "-W", "error", folder / "run.py"],
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def finished(process):
+    out, err = process.communicate(timeout=300)
+    assert process.returncode == 0, err
+    assert not err
+    total, loads = out.split()
+    return float(total), int(loads)
+
+
+def test_machine_code_is_kept_and_used(small):
+    assert finished(started(small)) == (12.0, 0)
+    assert finished(started(small)) == (12.0, 1)
+
+
+def test_machine_code_of_other_source_is_not_used(small):
+    finished(started(small))
+    (small / "factor.py").write_text("FACTOR = 5.0\n")
+    assert finished(started(small)) == (30.0, 0)
+
+
+@pytest.mark.parametrize("damage", [lambda code: b"", lambda code: code[:-9], lambda code: code[:-1] + b"x"])
+def test_damaged_machine_code_is_made_anew(small, damage):
+    finished(started(small))
+    (file,) = (small / "kept").glob("*.o")
+    file.write_bytes(damage(file.read_bytes()))
+    assert finished(started(small)) == (12.0, 0)
+    assert finished(started(small)) == (12.0, 1)
+
+
+def test_a_folder_that_cannot_be_written_only_costs_time(small):
+    (small / "kept").write_text("a file")
+    assert finished(started(small)) == (12.0, 0)
+    assert finished(started(small)) == (12.0, 0)
+
+
+def test_processes_that_start_at_once_disturb_each_other_not(small):
+    assert {finished(process)[0] for process in [started(small) for _ in range(4)]} == {12.0}
+    assert finished(started(small)) == (12.0, 1)
+
+
+def test_types_are_told_apart():
+    row = np.zeros((3, 4))
+    kinds = [row, row[:, ::2], row[0], row.astype(np.int8), 1, 1.0, True, (row, 1), np.broadcast_to(0.0, 3)]
+    assert len({native._types_of((kind,)) for kind in kinds}) == len(kinds)
+
+
+def test_an_infinite_stiffness_at_rupture_passes_through_machine_code(by_machine):
+    states, statuses = by_machine(batch.RUPTURE, SUCTION, questions(SUCTION, 8))
+    assert (statuses == batch.FOUND).all()
+    assert (states[2:, State._fields.index("stiffness")] == -math.inf).all()
