@@ -25,7 +25,8 @@ from .answers import (
     store_end,
 )
 from .equations import SUCTION, VOLUME
-from .follow import BRANCH_ENDS, FOLD
+from .follow import BRANCH_ENDS
+from .locate import FOLD
 from .morph import Task
 from .state import State
 from .tracing import trace
