@@ -7,10 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..ground.compile import kernel
+from .curve import Curve, Stance
 from .ends import lower_end, stable_bridge, unstable_bridge, upper_end
 from .equations import SUCTION
-from .follow import ARRIVED, ENDED, FOLD, LOST, PITCHFORK, Curve, Nodes, Stance, Walk
+from .follow import Nodes, Walk
 from .guess import guess_at
+from .locate import ARRIVED, ENDED, FOLD, LOST, PITCHFORK
 from .morph import Task, held_of
 from .newton import newton_to
 from .search import is_symmetric

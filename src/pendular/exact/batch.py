@@ -27,7 +27,8 @@ from .answers import (
     store_end,
 )
 from .equations import SUCTION, VOLUME
-from .follow import BRANCH_ENDS, FOLD
+from .follow import BRANCH_ENDS
+from .locate import FOLD
 from .meridian import lay_meridian
 from .morph import Task
 from .state import State

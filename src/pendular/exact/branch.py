@@ -17,7 +17,8 @@ from ..ground.rows import entry
 from .algebra import Four, largest
 from .ends import stable_bridge, upper_end
 from .equations import SUCTION, Held, curvature_of, force_of, system_at
-from .follow import ARRIVED, BRANCH_ENDS, FOLD, PITCHFORK, Nodes
+from .follow import BRANCH_ENDS, Nodes
+from .locate import ARRIVED, FOLD, PITCHFORK
 from .morph import Task, held_of
 from .newton import newton_to
 from .search import at_separation

@@ -11,7 +11,8 @@ import math
 from ..ground.compile import kernel
 from .algebra import Four
 from .equations import Held, System, curvature_of, force_of
-from .meridian import Cut, End, cuts_of, extreme_phases, middle_of, node_at, panel_of, panels_of
+from .meridian import End, extreme_phases, middle_of, panel_of, panels_of
+from .quadrature import Cut, cuts_of, node_at
 from .solids import Solid, contact_with, depth_inside, half_filling_angle
 
 _MOST_TURN = 6.3  # |ω|: an arc of a whole wave

@@ -10,29 +10,11 @@ from typing import NamedTuple
 
 from ..ground.compile import kernel
 from .algebra import Four, dot, largest, minors, moved, normal, scaled, solve4, unit_vector
+from .curve import Curve, Stance, corrected, set_out, stance_at, stance_of, with_unstable
 from .equations import SUCTION, Held, first_row, held_row, system_at
-from .follow import (
-    ARRIVED,
-    BRANCH_ENDS,
-    FOLD,
-    FOLDS,
-    LOST,
-    NOTHING,
-    PITCHFORK,
-    Curve,
-    Nodes,
-    Stance,
-    Walk,
-    back_from,
-    beyond,
-    corrected,
-    follow,
-    set_out,
-    stance_at,
-    stance_of,
-    with_unstable,
-)
+from .follow import BRANCH_ENDS, FOLDS, NOTHING, Nodes, Walk, back_from, beyond, follow
 from .guess import guess_at, rupture_at_suction, rupture_at_volume
+from .locate import ARRIVED, FOLD, LOST, PITCHFORK
 from .morph import Task, held_of
 from .newton import held_target, newton_to
 from .search import anchor, is_symmetric
@@ -194,11 +176,14 @@ def upper_end(task: Task, stops_at: int, nodes: Nodes) -> tuple[Walk, bool]:
 
 @kernel
 def lower_end(task: Task, stops_at: int, nodes: Nodes) -> tuple[Walk, bool]:
-    """The end of the stable branch towards contact; the walk arrives if the branch goes on to D = 0."""
-    walk, is_found = walk_from_anchor(task, -1.0, 0.0, stops_at, nodes)
-    if is_found and walk.stance.separation <= 0.0:
-        return Walk(ARRIVED, walk.stance, walk.curve, walk.nodes, walk.going), True
-    return walk, is_found
+    """The end of the stable branch towards contact; the walk arrives if the branch goes on to contact, or below."""
+    stance, is_stable = anchor(task, nodes)
+    stance, curve = set_out(stance.z, held_of(task), is_symmetric(task), -1.0)
+    if not is_stable:
+        return Walk(LOST, stance, curve, 0, -1.0), False
+    if stance.separation < _THERE * math.exp(stance.z.log_length):
+        return Walk(ARRIVED, stance, curve, 0, -1.0), True
+    return follow(stance, curve, 0.0, stops_at, nodes[:0]), True
 
 
 @kernel

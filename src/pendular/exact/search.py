@@ -1,15 +1,20 @@
 """Finding a stable bridge of two solids that hold something, wherever Newton's method alone does not.
 
-First at other separations. Then by a morph from an easy problem: two solids that are wetted alike, and a little liquid.
+First at other separations. A volume is held by a spherical drop then, unless that swallows a solid: it is the bridge of
+two solids that are wetted less, and leads to the one sought by a morph. At last by a morph from an easy problem: two
+solids that are wetted alike, and a little liquid.
 """
 
 import math
 
 from ..ground.compile import kernel
 from .algebra import Four
-from .equations import VOLUME
-from .follow import BRANCH_ENDS, ENDED, LOST, Nodes, Stance, beyond, follow, just_after, set_out
+from .curve import Stance, set_out
+from .drop import drop_between
+from .equations import VOLUME, system_at
+from .follow import BRANCH_ENDS, Nodes, beyond, follow, just_after
 from .guess import guess_at
+from .locate import ENDED, LOST
 from .morph import Task, held_of, morph
 from .newton import newton_to
 
@@ -17,6 +22,8 @@ _LAST_DIGITS = 2e-12
 _EASY_ANGLE = 0.5
 _EASY_VOLUME = 0.2 / math.pi  # V/π over R̄³
 _SHARES = (0.5, 0.2, 0.8, 0.1, 0.35, 0.0, 1.2, 0.05, 0.02)  # of the natural separation, where to look
+_LEAST_ANGLES = (0.0, 0.3, 0.1, 0.03, 1.0, 0.01, 3e-3, 1e-3, 1e-4, 1e-5)  # of solids that no drop swallows
+_LEAST_OPENING = 1e-6  # of a drop that is an anchor itself
 _MORPH_SHARES = (0.2, 0.5, 0.1, 0.0, 0.03, 1.0, 0.3, 0.7)
 _ALIKE_FROM = 6  # attempts by a morph from which on the easy problem has equal solids
 _MOST_FOLDS = 3
@@ -67,6 +74,8 @@ def _woken(z: Four, task: Task, nodes: Nodes) -> tuple[Stance, bool]:
     """A stable bridge on the curve through any one: over the folds, both ways."""
     held, symmetric = held_of(task), is_symmetric(task)
     stance, _curve = set_out(z, held, symmetric, 1.0)
+    if not stance.opening > 0.0:
+        return stance, False
     if stance.unstable == 0:
         return stance, True
     for going in (1.0, -1.0):
@@ -82,6 +91,32 @@ def _woken(z: Four, task: Task, nodes: Nodes) -> tuple[Stance, bool]:
 
 
 @kernel
+def _from_drop(task: Task, nodes: Nodes) -> tuple[Stance, bool]:
+    """The spherical drop, or where it swallows a solid, the bridge to which that of solids wetted less leads."""
+    held, symmetric = held_of(task), is_symmetric(task)
+    stance, _curve = set_out(guess_at(held, task.separation), held, symmetric, 1.0)
+    for least in _LEAST_ANGLES:
+        angle1, angle2 = max(task.angle1, least), max(task.angle2, least)
+        easy = Task(task.separation, task.value, task.curvature1, angle1, task.curvature2, angle2, task.control)
+        z, is_drop = drop_between(held_of(easy))
+        if not is_drop:
+            continue
+        if angle1 == task.angle1 and angle2 == task.angle2:
+            stance, _curve = set_out(z, held, symmetric, 1.0)
+            if stance.unstable == 0 and stance.opening > _LEAST_OPENING:
+                return stance, True
+            continue
+        separation = system_at(z, held_of(easy), True, True).separation.value
+        hard = at_separation(task, separation)
+        z, is_reached = morph(z, at_separation(easy, separation), hard)
+        if is_reached:
+            stance, is_stable = _woken(z, hard, nodes)
+            if is_stable:
+                return stance, True
+    return stance, False
+
+
+@kernel
 def anchor(task: Task, nodes: Nodes) -> tuple[Stance, bool]:
     """A stable bridge that holds what is asked, near the separation of the task if possible."""
     stance, index = directly(task)
@@ -91,6 +126,10 @@ def anchor(task: Task, nodes: Nodes) -> tuple[Stance, bool]:
     for share in _SHARES:
         stance, index = directly(at_separation(task, share * natural))
         if index == 0:
+            return stance, True
+    if task.control == VOLUME:
+        stance, is_stable = _from_drop(task, nodes)
+        if is_stable:
             return stance, True
     for attempt in range(len(_MORPH_SHARES) + 1):
         separation = task.separation if attempt == 0 else _MORPH_SHARES[attempt - 1] * natural

@@ -21,23 +21,11 @@ from .answers import (
     store_end,
 )
 from .clearance import radius_range
+from .curve import Curve, corrected, set_out
 from .ends import lower_end, stable_bridge
 from .equations import system_at
-from .follow import (
-    ARRIVED,
-    FOLD,
-    LOST,
-    NOTHING,
-    PITCHFORK,
-    Curve,
-    Nodes,
-    back_from,
-    beyond,
-    corrected,
-    follow,
-    recorded,
-    set_out,
-)
+from .follow import NOTHING, Nodes, back_from, beyond, follow, recorded
+from .locate import ARRIVED, FOLD, LOST, PITCHFORK
 from .morph import Task, held_of
 from .search import at_separation, is_symmetric
 from .state import describe
