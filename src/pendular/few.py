@@ -13,8 +13,13 @@ from typing import Any
 
 __all__ = ["by_cost"]
 
-_PLAIN_COST = {"answer": 0.005, "draw": 0.5, "lay_meridian": 0.005}  # of a row, [s]
-_KERNELS = {"answer": "bridge_range", "draw": "curve_range", "lay_meridian": "lay_meridian"}
+_PLAIN_COST = {"answer": 0.005, "answer_filling": 0.5, "draw": 0.5, "lay_meridian": 0.005}  # of a row, [s]
+_KERNELS = {
+    "answer": "bridge_range",
+    "answer_filling": "filling_range",
+    "draw": "curve_range",
+    "lay_meridian": "lay_meridian",
+}
 _PATIENCE = 3.0  # [s]
 
 _spent = dict.fromkeys(_PLAIN_COST, 0.0)  # on plain answers so far, [s]

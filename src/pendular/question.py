@@ -47,6 +47,7 @@ _ADVICE = {
     "exactly one of suction, volume, humidity is needed": (
         "write one of --suction 20kPa, --volume 5pL, --humidity 90%"
     ),
+    "ask bridge(branch='unstable')": "ask pendular bridge --branch unstable",
     "reduced_suction and reduced_volume": "reduced-suction and reduced-volume",
 }
 

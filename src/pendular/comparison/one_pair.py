@@ -10,7 +10,7 @@ from ..bridges import bridge, rupture
 from ..laws import Law, force_star, laws, rupture_star, rupture_work_star
 from ..liquid import Liquid
 from ..other_control import other_control_star
-from ..pair import Pair, check_pair
+from ..pair import Pair, check_pair, refuse_planes
 from ..problem import Control, control_of, control_star, reduce
 from .domain import outside_range, why_silent
 from .sample import ControlName, rupture_work
@@ -124,6 +124,8 @@ def compare(
     """
     count = whole_number("points", points, _FEWEST)
     control = control_of(suction, volume, humidity, liquid)
+    check_pair(pair)
+    refuse_planes(pair, "no law knows")
     exact = _exact(pair, control, liquid, count)
     reduced = _reduce(exact, control, liquid)
     found, refused = [], {}

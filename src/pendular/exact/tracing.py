@@ -21,7 +21,7 @@ from .answers import (
     store_end,
 )
 from .clearance import radius_range
-from .ends import lower_end, stable_bridge
+from .ends import lower_end, stable_bridge, upper_end
 from .equations import system_at
 from .follow import (
     ARRIVED,
@@ -39,11 +39,12 @@ from .follow import (
     set_out,
 )
 from .morph import Task, held_of
-from .search import at_separation, is_symmetric
+from .search import are_planes, at_separation, is_symmetric
 from .state import describe
 
 Rows = NDArray[np.float64]
 
+_WIDEST = 0.1  # gap between planes where their curve begins, over the rupture distance
 _THREAD = 0.03  # thinnest circle of a drawn bridge over the widest of its branch
 
 
@@ -64,10 +65,17 @@ def _spread(nodes: Nodes, count: int, curve: Curve, states: Rows, skips_first: b
 
 @kernel
 def _first_of(task: Task, limit: int, nodes: Nodes) -> Answer:
-    """Where a curve begins: the bridge at contact, or the lower end of the stable branch."""
+    """Where a curve begins: the bridge at contact, or the lower end of the stable branch.
+
+    Bridges between planes grow without bounds towards contact: it begins at some of the rupture distance.
+    """
     walk, is_known = lower_end(task, limit, nodes)
     if is_known and walk.event == ARRIVED:
-        return bridge_of(stable_bridge(at_separation(task, 0.0), limit, nodes), 0.0)
+        separation = 0.0
+        if are_planes(task):
+            top, is_known = upper_end(task, limit, nodes)
+            separation = _WIDEST * top.stance.separation if is_known else math.nan
+        return bridge_of(stable_bridge(at_separation(task, separation), limit, nodes), separation)
     return end_of(walk, is_known)
 
 
@@ -106,7 +114,7 @@ def trace(limit: int, task: Task, states: Rows, nodes: Nodes) -> int:
         states[middle, STIFFNESS] = -math.inf
     if first.event == FOLD:
         states[0, STIFFNESS], states[0, UNSTABLE_DIRECTIONS] = math.inf, 0.0
-    if first.event == ARRIVED:
+    if first.event == ARRIVED and not are_planes(task):
         states[0, 0] = 0.0  # contact, which the solver meets to rounding
     stance, curve = beyond(walk)
     down = follow(stance, curve, 0.0, NOTHING, nodes)
