@@ -220,11 +220,11 @@ def rupture(
     """
     one_of("end", end, ("upper", "lower"))
     one_of("limit", limit, ("stability", "fold"))
+    check_pair(pair)
     control = control_of(suction, volume, humidity, liquid)
+    _refuse_drained_planes(pair, control, humidity)
     if humidity is not None:
         warn_kelvin(liquid.surface_tension / control.value, 0.0)
-    check_pair(pair)
-    _refuse_drained_planes(pair, control, humidity)
     problem = reduce(pair, control, liquid, None)
     if _is_approximate(method, pair):
         one_of("end", end, ("upper",))
@@ -245,7 +245,7 @@ def curve(
 ) -> Bridge:
     """Bridges from contact, or the lower end, to rupture and down the unstable branch, at one control.
 
-    Between two planes, which hold no bridge in contact, they begin at a tenth of the rupture distance.
+    Between two planes, which hold no bridge in contact, they begin at a fifth of the rupture distance.
 
     Parameters
     ----------
@@ -274,11 +274,11 @@ def curve(
     """
     one_of("limit", limit, ("stability", "fold"))
     count = whole_number("points", points, 5)
+    check_pair(pair)
     control = control_of(suction, volume, humidity, liquid)
+    _refuse_drained_planes(pair, control, humidity)
     if humidity is not None:
         warn_kelvin(liquid.surface_tension / control.value, 0.0)
-    check_pair(pair)
-    _refuse_drained_planes(pair, control, humidity)
     problem = reduce(pair, control, liquid, None)
     return trace(problem, count, limit)
 

@@ -75,8 +75,8 @@ def _refuse_several(
     found = np.sort(separations[i][~np.isnan(separations[i])]) * problem.length[i]
     told = " and ".join(f"{one:.6g}" for one in found)
     raise ValueError(
-        f"half_filling_angle{place}: {angles[i]:.6g} rad is that of {found.size} {branch} bridges, at separations of "
-        f"{told} m; give a separation near to the one that is meant as well"
+        f"half_filling_angle{place}: {angles[i]:.6g} rad, {np.rad2deg(angles[i]):.6g}°, is that of {found.size} "
+        f"{branch} bridges, at separations of {told} m; give a separation near to the one that is meant as well"
     )
 
 

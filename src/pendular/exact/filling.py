@@ -23,10 +23,12 @@ from .follow import (
     PITCHFORK,
     Curve,
     Nodes,
+    Stance,
     Walk,
     beyond,
     corrected,
     follow,
+    just_after,
     recorded,
     set_out,
     stance_at,
@@ -216,7 +218,7 @@ def _mirrored(filling: Filling) -> Filling:
 
 @kernel
 def _gather_beyond(walk: Walk, target: float, filling: Filling, nodes: Nodes, found: Nodes, count: int) -> int:
-    """Add the bridges with the angle on the branch that leaves the stable one at its end, up to its own fold."""
+    """Add the bridges with the angle on the branches that leave the stable one at its end, up to their own folds."""
     stance, curve = beyond(walk)
     onward = follow(stance, curve, target, FOLDS, nodes)
     count = _gather(nodes, onward.nodes, onward.curve, filling, found, count)
@@ -227,7 +229,11 @@ def _gather_beyond(walk: Walk, target: float, filling: Filling, nodes: Nodes, fo
     count = _gather(nodes, onward.nodes, onward.curve, _mirrored(filling), found, count)
     for i in range(first, count):
         found[i, 1] = -found[i, 1]
-    return count
+    # and mirror images that have lost the stability against sliding stay symmetric up to their fold
+    end, after = walk.stance, just_after(walk.stance, walk.curve)
+    stance = Stance(end.z, end.tangent, end.separation, after.slope, after.unstable, after.margin, end.opening)
+    onward = follow(stance, walk.curve, math.nan, FOLDS, nodes)
+    return _gather(nodes, onward.nodes, onward.curve, filling, found, count)
 
 
 @kernel

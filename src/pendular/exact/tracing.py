@@ -44,7 +44,7 @@ from .state import describe
 
 Rows = NDArray[np.float64]
 
-_WIDEST = 0.1  # gap between planes where their curve begins, over the rupture distance
+_WIDEST = 0.2  # gap between planes where their curve begins, over the rupture distance
 _THREAD = 0.03  # thinnest circle of a drawn bridge over the widest of its branch
 
 
