@@ -396,7 +396,28 @@ _HUMIDITY = "; 50 % are 0.5, and saturation is a suction of 0"
         (("--radius", "50N"), "radius: '50N' is not a quantity in m; write it like 50um"),
         (("--radius", "wide"), "radius: 'wide' does not begin with a number; write it like 50um"),
         (("--radius", "nan um"), "radius: 'nan um' is not > 0; write it like 50um"),
-        (("--radius", "inf"), "radius: inf and inf are two planes; one of the two radii must be finite"),
+        (
+            ("--radius", "inf"),
+            "suction: holds no stable bridge between two planes, which dries up or floods the gap; hold a volume, or "
+            "ask pendular bridge --branch unstable for the one between the two",
+        ),
+        (
+            ("--half-filling-angle", "180"),
+            "half-filling-angle: 180° of '180' is not in (0, 180) degrees; write it like 30",
+        ),
+        (
+            ("--half-filling-angle2", "0:20:3"),
+            "half-filling-angle2: 0° of '0:20:3' is not in (0, 180) degrees; write it like 30",
+        ),
+        (("--half-filling-angle", "1um"), "half-filling-angle: '1um' is not a quantity in deg; write it like 20deg"),
+        (
+            ("--half-filling-angle", "10", "--half-filling-angle2", "10"),
+            "half-filling-angle2: given together with half-filling-angle; one of the two is needed",
+        ),
+        (
+            ("--radius", "plane", "--radius2", "50um", "--half-filling-angle", "10"),
+            "half-filling-angle: the first solid is a plane, which has none; --half-filling-angle2 names the other",
+        ),
         (("--radius2", "-5um"), "radius2: '-5um' is not > 0; write it like 50um"),
         (("--diameter", "100um"), "diameter: given together with radius; one of the two is needed"),
         (

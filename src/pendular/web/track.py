@@ -3,8 +3,6 @@
 import math
 from typing import Literal, NamedTuple
 
-from scipy.constants import zero_Celsius
-
 from ..liquid import humidity_from_suction
 from ..report import UNITS
 from ..units import show
@@ -12,6 +10,7 @@ from .answer import Answer
 
 __all__ = ["Track", "held_instead", "track_of", "value_of", "written"]
 
+_ZERO_CELSIUS = 273.15  # [K]
 _UNITS = {**UNITS, "radius": "m", "radius2": "m", "surface_tension": "N/m"}
 
 
@@ -64,7 +63,7 @@ _FIXED = {
     "radius2": _RADIUS,
     "contact_angle": _ANGLE,
     "contact_angle2": _ANGLE,
-    "temperature": Track(zero_Celsius, zero_Celsius + 100.0, 200),
+    "temperature": Track(_ZERO_CELSIUS, _ZERO_CELSIUS + 100.0, 200),
     "surface_tension": Track(1e-3, 1.0, 300, "logarithmic"),
     "suction": Track(10.0, 1e8, 350, "logarithmic"),
     "humidity": Track(0.5, 1.0 - 1e-6, 285, "complement"),
@@ -95,7 +94,7 @@ def value_of(name: str, answer: Answer) -> float:
         "radius2": float(radius2),
         "contact_angle": math.degrees(angle1),
         "contact_angle2": math.degrees(angle2),
-        "temperature": liquid.temperature or zero_Celsius,
+        "temperature": liquid.temperature or _ZERO_CELSIUS,
         "surface_tension": liquid.surface_tension,
         "separation": answer.separation,
         **answer.question.held,
@@ -126,7 +125,7 @@ def written(name: str, value: float, digits: int = 3) -> str:
         dryness = float(f"{1.0 - value:.{digits}g}")
         return f"{100.0 * (1.0 - dryness):.12g} %"
     if name == "temperature":
-        return f"{value - zero_Celsius:.4g} °C"
+        return f"{value - _ZERO_CELSIUS:.4g} °C"
     if name.startswith("contact_angle"):
         return f"{value:.4g}°"
     return show(value, _UNITS[name], digits)
