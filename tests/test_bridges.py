@@ -519,6 +519,7 @@ def test_bad_choices_are_refused(ask, message):
         ask()
 
 
+@pytest.mark.needs("liquids")
 def test_an_unknown_liquid_is_refused_with_the_names_that_are_close():
     with refused("name: 'ethanoll' is not a known liquid; did you mean ethanol or methanol or ethanethiol?"):
         pl.Liquid.named("ethanoll")

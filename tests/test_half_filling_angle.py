@@ -177,8 +177,8 @@ def test_beyond_a_pitchfork_either_solid_may_be_the_wetter():
         ({}, "separation: None given; a separation or a half_filling_angle is needed"),
         (
             {"half_filling_angle": [0.1, 0.2], "volume": [1e-16] * 3},
-            "shapes do not broadcast: volume (3,), radius[0] (), radius[1] (), contact_angle[0] (), contact_angle[1] "
-            "(), half_filling_angle (2,)",
+            "shapes do not broadcast: half_filling_angle (2,), volume (3,), radius[0] (), radius[1] (), "
+            "contact_angle[0] (), contact_angle[1] ()",
         ),
     ],
 )

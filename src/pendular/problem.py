@@ -95,14 +95,13 @@ def reduce(
     """
     check_pair(pair)
     (radius1, radius2), (angle1, angle2) = pair.radii, pair.contact_angles
-    named = {control.name: control.value, "radius[0]": radius1, "radius[1]": radius2}
+    given = {"separation": separation if separation is None else quantity("separation", separation, "m")}
+    given["half_filling_angle"] = filling
+    named = {name: array for name, array in given.items() if array is not None}
+    named |= {control.name: control.value, "radius[0]": radius1, "radius[1]": radius2}
     named |= {"contact_angle[0]": angle1, "contact_angle[1]": angle2}
-    if separation is not None:
-        named["separation"] = quantity("separation", separation, "m")
-    if filling is not None:
-        named["half_filling_angle"] = filling
     arrays = dict(zip(named, broadcast(**named), strict=True))
-    value, radius1, radius2, angle1, angle2 = (np.ravel(array) for array in list(arrays.values())[:5])
+    value, radius1, radius2, angle1, angle2 = (np.ravel(array) for array in list(arrays.values())[-5:])
     shape = arrays[control.name].shape
     length = np.minimum(radius1, radius2)
     are_planes = np.isinf(length)

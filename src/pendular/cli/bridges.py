@@ -56,6 +56,7 @@ def bridge(
     from .. import bridges, report
 
     asked = _asked(separation, half_filling_angle, half_filling_angle2)
+    length = sweep_length(**asked.values, **question.control)
     _refuse_picture_of_sweep(question)
     answer = _with_asked(question.put_to(bridges.bridge, branch=branch, **asked.arguments), asked, question)
     end = question.put_to(bridges.rupture) if question.has_stable_bridges else None
@@ -65,7 +66,7 @@ def bridge(
         typer.echo(_json(question, answer, *limits))
     elif question.form == "csv":
         typer.echo(_csv(question, answer, *limits), nl=False)
-    elif sweep_length(**asked.values, **question.control) is not None:
+    elif length is not None:
         columns = [
             report.column_of("separation", answer),
             *(limit._replace(name="rupture_distance") for limit in limits),
