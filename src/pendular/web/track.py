@@ -69,6 +69,7 @@ _FIXED = {
     "humidity": Track(0.5, 1.0 - 1e-6, 285, "complement"),
 }
 _VOLUME_STAR = 1e-8, 1.0  # over the cube of the Derjaguin radius
+_BETWEEN_PLANES = 0.1, 1e5  # over the cube of the gap
 _BEYOND = 1.25  # over the rupture distance
 _NO_RUPTURE_STAR = 0.2  # over the Derjaguin radius, where solids hold no bridge apart
 
@@ -79,8 +80,9 @@ def track_of(name: str, answer: Answer) -> Track:
         return _FIXED[name]
     mean_radius = float(answer.question.pair.derjaguin_radius)
     if name == "volume":
-        low, high = _VOLUME_STAR
-        return Track(low * mean_radius**3, high * mean_radius**3, 320, "logarithmic")
+        are_planes = math.isinf(mean_radius)
+        (low, high), unit = (_BETWEEN_PLANES, answer.separation) if are_planes else (_VOLUME_STAR, mean_radius)
+        return Track(low * unit**3, high * unit**3, 320, "logarithmic")
     end = answer.rupture
     return Track(0.0, _BEYOND * float(end.separation) if end.exists else _NO_RUPTURE_STAR * mean_radius, 250)
 
