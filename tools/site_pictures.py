@@ -14,7 +14,7 @@ from matplotlib.patches import Arc, Rectangle
 import pendular as pl
 from pendular.exact.algebra import Four
 from pendular.exact.meridian import lay_meridian
-from pendular.show.colours import ACCENT, FAINT, GRAIN, GRAIN_EDGE, HAIR, INK, LIQUID, LIQUID_EDGE
+from pendular.ground.colours import ACCENT, FAINT, GRAIN, GRAIN_EDGE, HAIR, INK, LIQUID, LIQUID_EDGE
 
 UNIT = pl.Liquid(surface_tension=1.0)
 GAP = 0.16  # of the sketch

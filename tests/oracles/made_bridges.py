@@ -184,9 +184,20 @@ def made_bridges(seed, count, lowest, highest):
 # -- stability --------------------------------------------------------------------------------------------------------
 
 
-def _count_down(bridge, mode):
-    """Unstable directions at fixed suction, and whether a held volume takes one away."""
-    suction, radii = bridge.suction, (1.0, bridge.second_radius)
+class Arc(NamedTuple):
+    """A meridian from a contact circle on solid 1, with what it meets at both ends."""
+
+    radius: float
+    slope: float
+    suction: float
+    length: float
+    angles: tuple[float, float]
+    radii: tuple[float, float]  # of the solids
+
+
+def count_down(arc, mode):
+    """Unstable directions of a mode at fixed suction, and whether a held volume takes one away."""
+    suction = arc.suction
 
     def rates(_, v):
         radius, slope, u, u_slope, forced, forced_slope = v[0], v[2], v[3], v[4], v[5], v[6]
@@ -206,22 +217,22 @@ def _count_down(bridge, mode):
         )
 
     def spring(v, solid):
-        angle = bridge.angles[solid]
-        return 1.0 / (radii[solid] * math.sin(angle)) + (suction + math.cos(v[2]) / v[0]) / math.tan(angle)
+        angle = arc.angles[solid]
+        return 1.0 / (arc.radii[solid] * math.sin(angle)) + (suction + math.cos(v[2]) / v[0]) / math.tan(angle)
 
-    start = (math.sin(bridge.filling), 0.0, bridge.filling + bridge.angles[0] - math.pi / 2.0)
-    is_wetted = [angle == 0.0 for angle in bridge.angles]  # a wetted solid holds the line: u = 0 there
+    start = (arc.radius, 0.0, arc.slope)
+    is_wetted = [angle == 0.0 for angle in arc.angles]  # a wetted solid holds the line: u = 0 there
     first = (0.0, 1.0) if is_wetted[0] else (1.0, spring(start, 0))
     solution = solve_ivp(
         rates,
-        (0.0, bridge.arc_length),
+        (0.0, arc.length),
         (*start, *first, 0.0, 0.0, 0.0, 0.0),
         method="DOP853",
         rtol=1e-10,
         atol=1e-13,
         dense_output=True,
     )
-    u = solution.sol(np.linspace(0.0, bridge.arc_length, 400))[3]
+    u = solution.sol(np.linspace(0.0, arc.length, 400))[3]
     last = solution.y[:, -1]
     count = int(np.sum(u[1:] * u[:-1] < 0.0))
     if is_wetted[1]:
@@ -236,8 +247,10 @@ def _count_down(bridge, mode):
 
 def unstable_directions(bridge):
     """Axisymmetric unstable directions at fixed suction, at fixed volume, and sideways ones."""
-    at_suction, takes_one = _count_down(bridge, 0)
-    return at_suction, at_suction - takes_one, _count_down(bridge, 1)[0]
+    radius, slope = math.sin(bridge.filling), bridge.filling + bridge.angles[0] - math.pi / 2.0
+    arc = Arc(radius, slope, bridge.suction, bridge.arc_length, bridge.angles, (1.0, bridge.second_radius))
+    at_suction, takes_one = count_down(arc, 0)
+    return at_suction, at_suction - takes_one, count_down(arc, 1)[0]
 
 
 # -- answers ----------------------------------------------------------------------------------------------------------

@@ -8,11 +8,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..ground.check import one_of, plain, whole_number
 from ..laws import laws
+from .by_angle import bridge_by_angle
 from .by_dataset import bridge_by_dataset, rupture_by_dataset
 from .by_law import bridge_by_law, rupture_by_law
 from .by_table import bridge_by_table, rupture_by_table
 from .liquid import HUMIDITY_UNCERTAINTY, Liquid, humidity_from_suction, suction_from_humidity, warn_kelvin
-from .pair import Pair
+from .pair import Pair, PerSolid, check_pair, refuse_planes
 from .problem import (
     Asked,
     Control,
@@ -23,6 +24,7 @@ from .problem import (
     control_of,
     control_si,
     reduce,
+    refuse_drained_planes,
     solve,
     trace,
 )
@@ -39,8 +41,9 @@ _RUPTURES = {"table": rupture_by_table, "dataset": rupture_by_dataset}
 
 def bridge(
     pair: Pair,
-    separation: ArrayLike,
+    separation: ArrayLike | None = None,
     *,
+    half_filling_angle: PerSolid | tuple[ArrayLike | None, ArrayLike | None] | None = None,
     suction: ArrayLike | None = None,
     volume: ArrayLike | None = None,
     humidity: ArrayLike | None = None,
@@ -49,7 +52,7 @@ def bridge(
     limit: Limit = "stability",
     method: str = "exact",
 ) -> Bridge:
-    r"""Capillary bridge between two solids at a separation, exactly.
+    r"""Capillary bridge between two solids at a separation, or of a half-filling angle, exactly.
 
     .. math:: & \frac{Y''}{(1+Y'^2)^{3/2}} - \frac{1}{Y\sqrt{1+Y'^2}} = \frac{\Delta p}{\gamma}
         \quad \text{([1], Eq. 8)} \\ & F = 2\pi\gamma\lambda \quad \text{(Eq. 11)}
@@ -58,8 +61,12 @@ def bridge(
     ----------
     pair : Pair
         The solids.
-    separation : array_like
-        D, whole gap from surface to surface, [m], above minus half the smaller radius; negative means overlap.
+    separation : array_like, optional
+        D, whole gap from surface to surface, [m], above minus half the smaller radius; negative means overlap. Between
+        two planes it is > 0. Beside a half-filling angle it is a guess: of several bridges the nearest is answered.
+    half_filling_angle : array_like or tuple of two, optional
+        δ of the contact circle of radius R sin δ, [rad], in (0, π), in the place of the separation. On the first solid;
+        a tuple names which, ``(None, 0.5)`` is on the second. At a constant volume several stable bridges may have it.
     suction : array_like, optional
         Δp = p_gas - p_liquid held constant, [Pa], up to 1e13 γ/R̄ either way. Exactly one of the three controls is
         given.
@@ -90,7 +97,9 @@ def bridge(
     Raises
     ------
     ValueError
-        For bad input, naming the argument, its value and what is allowed.
+        For bad input, naming the argument, its value and what is allowed; for a half-filling angle that several
+        bridges have, where no separation tells which is meant; and for two planes under suction, where no bridge is
+        stable: each is a nucleus that dries up or floods the gap, and ``branch="unstable"`` answers it.
 
     Warns
     -----
@@ -120,10 +129,25 @@ def bridge(
     """
     one_of("branch", branch, ("stable", "unstable"))
     one_of("limit", limit, ("stability", "fold"))
+    check_pair(pair)
     control = control_of(suction, volume, humidity, liquid)
-    problem = reduce(pair, control, liquid, separation)
-    if _is_approximate(method):
+    is_approximate = _is_approximate(method, pair)
+    if is_approximate:
         one_of("branch", branch, ("stable",))
+    if half_filling_angle is not None:
+        if is_approximate:
+            raise ValueError(f"half_filling_angle: method {method!r} does not know it; 'exact' does")
+        answer = bridge_by_angle(pair, control, liquid, half_filling_angle, separation, branch, limit)
+        if humidity is not None:
+            found = np.where(answer.exists, answer.separation, 0.0)
+            _judge_humidity(pair, found, control, liquid, branch, answer)
+        return answer
+    if separation is None:
+        raise ValueError("separation: None given; a separation or a half_filling_angle is needed")
+    if branch == "stable":
+        _refuse_drained_planes(pair, control, humidity)
+    problem = reduce(pair, control, liquid, separation)
+    if is_approximate:
         return _BRIDGES[method](problem) if method in _BRIDGES else bridge_by_law(problem, method)
     answer = _echo(solve(problem, branch, limit), problem)
     if humidity is not None:
@@ -196,11 +220,13 @@ def rupture(
     """
     one_of("end", end, ("upper", "lower"))
     one_of("limit", limit, ("stability", "fold"))
+    check_pair(pair)
     control = control_of(suction, volume, humidity, liquid)
+    _refuse_drained_planes(pair, control, humidity)
     if humidity is not None:
         warn_kelvin(liquid.surface_tension / control.value, 0.0)
-    problem = reduce(pair, control, liquid, 0.0)
-    if _is_approximate(method):
+    problem = reduce(pair, control, liquid, None)
+    if _is_approximate(method, pair):
         one_of("end", end, ("upper",))
         one_of("limit", limit, ("stability",))
         return _RUPTURES[method](problem) if method in _RUPTURES else rupture_by_law(problem, method)
@@ -218,6 +244,8 @@ def curve(
     limit: Limit = "stability",
 ) -> Bridge:
     """Bridges from contact, or the lower end, to rupture and down the unstable branch, at one control.
+
+    Between two planes, which hold no bridge in contact, they begin at a fifth of the rupture distance.
 
     Parameters
     ----------
@@ -246,19 +274,28 @@ def curve(
     """
     one_of("limit", limit, ("stability", "fold"))
     count = whole_number("points", points, 5)
+    check_pair(pair)
     control = control_of(suction, volume, humidity, liquid)
+    _refuse_drained_planes(pair, control, humidity)
     if humidity is not None:
         warn_kelvin(liquid.surface_tension / control.value, 0.0)
-    problem = reduce(pair, control, liquid, 0.0)
+    problem = reduce(pair, control, liquid, None)
     return trace(problem, count, limit)
 
 
-def _is_approximate(method: str) -> bool:
+def _is_approximate(method: str, pair: Pair) -> bool:
     """Whether a method is a table, the data base or a law of the registry; any other but exact is refused."""
     if method == "exact":
         return False
     one_of("method", method, ("exact", *_BRIDGES, *laws))
-    return True
+    if method != "exact":
+        refuse_planes(pair, f"method {method!r} does not know")
+    return method != "exact"
+
+
+def _refuse_drained_planes(pair: Pair, control: Control, humidity: ArrayLike | None) -> None:
+    if control.name == "suction":
+        refuse_drained_planes(pair, "suction" if humidity is None else "humidity")
 
 
 def _echo(answer: Bridge, problem: Problem) -> Bridge:

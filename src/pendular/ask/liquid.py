@@ -5,14 +5,24 @@ import math
 import re
 from dataclasses import dataclass
 from functools import cache
+from importlib.util import find_spec
 from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.constants import R as GAS_CONSTANT
 
 from ..ground.check import in_range, instance, quantity, scalar
 from ..ground.warn import warn
+from .kept_liquids import (
+    WATER_CRITICAL_TEMPERATURE,
+    WATER_MOLAR_MASS,
+    KeptLiquid,
+    density_at,
+    kept_liquids,
+    tension_at,
+    water_density,
+    water_tension,
+)
 
 __all__ = [
     "KelvinWarning",
@@ -34,6 +44,8 @@ HUMIDITY_UNCERTAINTY = 1e-3
 
 # Relative change of the force by that uncertainty above which humidity no longer controls the force, [-].
 LARGE_FORCE_CHANGE = 0.1
+
+GAS_CONSTANT = 8.31446261815324  # exact, [J/(mol K)]
 
 # Ordinary water freezes at 273.15 K under one atmosphere, 0.01 K below its triple point; the IAPWS formulas are
 # smooth there (R1-76 holds down to 248 K) and 0 degC is a temperature people ask for.
@@ -145,7 +157,7 @@ class Liquid:
         Returns
         -------
         Liquid
-            With the density of the saturated liquid by IAPWS-95.
+            With the density of the saturated liquid by IAPWS SR1-86.
 
         Raises
         ------
@@ -154,40 +166,43 @@ class Liquid:
 
         Notes
         -----
-        **Validity.** R1-76 states its own uncertainty as about 0.5 % below 100 °C. Under one atmosphere the density
-        at 20 °C is 998.207 instead of 998.162 kg/m³, 5e-5 more.
+        **Validity.** R1-76 states its own uncertainty as about 0.5 % below 100 °C. The density is within 7e-6 of
+        IAPWS-95 below 100 °C, 4e-4 up to 620 K and 2e-3 above. Under one atmosphere that at 20 °C is 998.207 instead
+        of 998.158 kg/m³, 5e-5 more.
 
         References
         ----------
         .. [1] IAPWS R1-76(2014), Revised Release on Surface Tension of Ordinary Water Substance;
            N. B. Vargaftik, B. N. Volkov, L. D. Voljak, J. Phys. Chem. Ref. Data 12 (1983) 817.
            doi 10.1063/1.555688.
-        .. [2] W. Wagner, A. Pruß, J. Phys. Chem. Ref. Data 31 (2002) 387. doi 10.1063/1.1461829.
+        .. [2] IAPWS SR1-86(1992), Revised Supplementary Release on Saturation Properties of Ordinary Water Substance;
+           W. Wagner, A. Pruß, J. Phys. Chem. Ref. Data 22 (1993) 783. doi 10.1063/1.555926.
 
         Examples
         --------
         >>> water = Liquid.water(temperature=293.15)
         >>> round(1e3 * water.surface_tension, 4), round(water.density, 4)
-        (72.7361, 998.1618)
+        (72.7361, 998.1581)
         >>> Liquid.water(surface_tension=0.0523).surface_tension
         0.0523
         """
-        from chemicals import iapws, sigma_IAPWS
-
         kelvin = _in_kelvin(
-            "temperature", scalar("temperature", temperature, "K"), WATER_FREEZING_POINT, iapws.iapws95_Tc
+            "temperature", scalar("temperature", temperature, "K"), WATER_FREEZING_POINT, WATER_CRITICAL_TEMPERATURE
         )
         return cls(
-            surface_tension=sigma_IAPWS(kelvin) if surface_tension is None else surface_tension,
-            density=iapws.iapws95_rhol_sat(kelvin),  # type: ignore[no-untyped-call]
-            molar_mass=1e-3 * iapws.iapws95_MW,
+            surface_tension=water_tension(kelvin) if surface_tension is None else surface_tension,
+            density=water_density(kelvin),
+            molar_mass=WATER_MOLAR_MASS,
             temperature=kelvin,
             name="water",
         )
 
     @classmethod
     def named(cls, name: str, temperature: float = 293.15, *, surface_tension: float | None = None) -> Self:
-        """Pure liquid from the data of the packages thermo and chemicals, on its saturation line.
+        """Pure liquid on its saturation line: one of the commonest 31, or of the data of thermo and chemicals.
+
+        Water and thirty liquids more, `pendular.ask.kept_liquids`, need nothing else; some hundred more come with
+        ``pip install 'pendular[liquids]'``.
 
         Parameters
         ----------
@@ -207,8 +222,9 @@ class Liquid:
         Raises
         ------
         ValueError
-            If the liquid is unknown (with close names), has no surface tension data, or none at this temperature; and
-            for a polymer, a mixture, or a name that the data give to several substances.
+            If the liquid is unknown (with close names), needs the packages that are not installed, has no surface
+            tension data, or none at this temperature; and for a polymer, a mixture, or a name that the data give to
+            several substances.
 
         Notes
         -----
@@ -216,7 +232,8 @@ class Liquid:
         thermo recommends. At 20 °C within 0.02 % of CoolProp for alkanes, ethanol, cyclohexane, toluene and benzene,
         within 0.4 % of Jasper [3]_ for ethylene glycol and isopropanol, about 1 % for glycerol. Mercury is 475.6 mN/m,
         2.2 % below the 486.5 of handbooks for a clean surface: where that matters, pass the measured value.
-        Densities agree with CoolProp within 0.02 %.
+        Densities of the liquids that are kept are within 0.25 % of CoolProp from 0 to 100 °C, those of the others
+        within 0.02 %.
 
         References
         ----------
@@ -229,12 +246,19 @@ class Liquid:
         --------
         >>> ethanol = Liquid.named("ethanol", temperature=293.15)
         >>> round(1e3 * ethanol.surface_tension, 2), round(ethanol.density)
-        (22.37, 789)
+        (22.37, 790)
         """
-        chemical = _identify(name)
-        if chemical.CASs == WATER_CAS:
+        chemical = _look_up(name)
+        if isinstance(chemical, str):
             return cls.water(temperature, surface_tension=surface_tension)
         kelvin = _positive("temperature", temperature, "K")
+        if isinstance(chemical, KeptLiquid):
+            span, reach = chemical.tension, chemical.density
+            if surface_tension is None:
+                _in_kelvin(f"temperature of {chemical.name}", kelvin, span.low, span.high)
+                surface_tension = tension_at(chemical, kelvin)
+            density = density_at(chemical, kelvin) if reach.low <= kelvin <= reach.high else None
+            return cls(surface_tension, density, chemical.molar_mass, kelvin, chemical.name)
         return cls(
             surface_tension=_surface_tension(chemical, kelvin) if surface_tension is None else surface_tension,
             density=_density(chemical, kelvin),
@@ -421,10 +445,41 @@ def _temperature_of(liquid: Liquid, given: float | None) -> float | None:
     return kelvin
 
 
+def _look_up(name: str) -> Any:
+    """Liquid of a name: "water", a kept one, or an entry of the chemicals package."""
+    found = (_kept().get(name.strip()) or _kept().get(_key(name))) if isinstance(name, str) else None
+    if found is not None:
+        return found
+    chemical = _identify(name)
+    return _kept().get(chemical.CASs, chemical)
+
+
+@cache
+def _kept() -> dict[str, "KeptLiquid | str"]:
+    """What is kept, by the keys of its names and by its CAS numbers."""
+    known: dict[str, KeptLiquid | str] = {_key(name): "water" for name in ("water", "H2O")}
+    known[WATER_CAS] = "water"
+    for liquid in kept_liquids():
+        known |= {_key(name): liquid for name in (liquid.name, *liquid.other_names)}
+        known[liquid.cas] = liquid
+    return known
+
+
+def _refuse_without_data(name: str) -> None:
+    """Refuse a liquid that is not kept, where the packages with all the others are not installed."""
+    if find_spec("thermo") and find_spec("chemicals"):
+        return
+    known = ["water", *(one for liquid in kept_liquids() for one in (liquid.name, *liquid.other_names))]
+    close = difflib.get_close_matches(name.lower(), known, cutoff=0.7)
+    hint = f"did you mean {' or '.join(close)}? Otherwise " if close else ""
+    raise ValueError(
+        f"name: {name!r} is not among the {len(kept_liquids()) + 1} liquids that come with pendular; {hint}"
+        "pip install 'pendular[liquids]' brings some hundred more, or make Liquid(surface_tension=...)"
+    )
+
+
 def _identify(name: str) -> Any:
     """Entry of the chemicals package for a name: CASs, MW [g/mol], common_name."""
-    from chemicals import search_chemical
-
     if not isinstance(name, str) or not name.strip():  # chemicals takes an empty name for vanadium
         raise ValueError(f"name: {name!r} is not the name of a liquid")
     key = _key(name)
@@ -432,6 +487,9 @@ def _identify(name: str) -> Any:
         raise ValueError(f"name: {name!r} is a polymer, of which there are no data; make Liquid(surface_tension=...)")
     if key in _SEVERAL:
         raise ValueError(f"name: {name!r} is not one substance; write which, or make Liquid(surface_tension=...)")
+    _refuse_without_data(name)
+    from chemicals import search_chemical
+
     try:
         found = search_chemical(name)
     except ValueError:

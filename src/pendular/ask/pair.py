@@ -14,7 +14,7 @@ PerSolid = ArrayLike | tuple[ArrayLike, ArrayLike]
 
 @dataclass(frozen=True, eq=False)
 class Pair:
-    """Two solids on one axis: spheres of any radii, or a sphere and a plane.
+    """Two solids on one axis: spheres of any radii, a sphere and a plane, or two planes.
 
     Parameters
     ----------
@@ -27,7 +27,7 @@ class Pair:
     Raises
     ------
     ValueError
-        If a value is out of range, or both solids are planes.
+        If a value is out of range.
 
     Examples
     --------
@@ -45,9 +45,7 @@ class Pair:
     def __post_init__(self) -> None:
         radii = _per_solid("radius", self.radius, _radius)
         _per_solid("contact_angle", self.contact_angle, angle)
-        both = broadcast(**{"radius[0]": radii[0], "radius[1]": radii[1]})
-        if np.any(np.isinf(both[0]) & np.isinf(both[1])):
-            raise ValueError("radius: inf and inf are two planes; one of the two radii must be finite")
+        broadcast(**{"radius[0]": radii[0], "radius[1]": radii[1]})
 
     @property
     def radii(self) -> tuple[Floats, Floats]:
@@ -61,9 +59,10 @@ class Pair:
 
     @property
     def derjaguin_radius(self) -> float | Floats:
-        """R̄ = 2 R1 R2/(R1 + R2), [m]: R for equal spheres, 2R for a sphere and a plane."""
+        """R̄ = 2 R1 R2/(R1 + R2), [m]: R for equal spheres, 2R for a sphere and a plane, infinite for two planes."""
         first, second = self.radii
-        mean: float | Floats = plain(2.0 / (1.0 / first + 1.0 / second))
+        with np.errstate(divide="ignore"):
+            mean: float | Floats = plain(2.0 / (1.0 / first + 1.0 / second))
         return mean
 
 
@@ -79,6 +78,21 @@ def check_pair(pair: object) -> None:
     """
     if not isinstance(pair, Pair):
         raise ValueError(f"pair: {pair!r} is not a pendular.Pair; write Pair(radius) or Pair(radius, contact_angle)")
+
+
+def refuse_planes(pair: Pair, unknown: str) -> None:
+    """Refuse two planes, with who does not know them.
+
+    Examples
+    --------
+    >>> refuse_planes(Pair(np.inf), "method 'table' does not know")
+    Traceback (most recent call last):
+        ...
+    ValueError: radius: inf and inf are two planes, which method 'table' does not know; method 'exact' does
+    """
+    first, second = pair.radii
+    if np.any(np.isinf(first) & np.isinf(second)):
+        raise ValueError(f"radius: inf and inf are two planes, which {unknown}; method 'exact' does")
 
 
 def _per_solid(name: str, value: PerSolid, check: Callable[[str, object], Floats]) -> tuple[Floats, Floats]:

@@ -1,6 +1,7 @@
 """A public question reduced to numbers, answered by the exact solver, and scaled back to SI units.
 
-Lengths are divided by the smaller radius and γ is 1: each row of a problem is (D, H or V, k1, θ1, k2, θ2).
+Lengths are divided by the smaller radius and γ is 1: each row of a problem is (D, H or V, k1, θ1, k2, θ2). Between two
+planes they are divided by the cube root of the volume, or under suction by the gap.
 """
 
 from typing import Any, Literal, NamedTuple
@@ -26,18 +27,20 @@ Limit = Literal["stability", "fold"]
 
 _PER_SOLID = ("contact_radius", "half_filling_angle", "wetted_area", "capillary_tensor")
 _DEEPEST_OVERLAP = 0.5  # over the smaller radius
+_LIKELY_BETWEEN_PLANES = 0.3  # separation over the cube root of the volume
+_NARROWEST = 1e-5  # and the least that is asked
 _VOLUMES, _MOST_SUCTION = (
     (1e-30, 1e4),
     1e13,
 )  # the domain, over R̄³ and γ/R̄: volumes, and the largest suction or pressure
 
-_ASKED: dict[Asked, int] = {
+ASKED: dict[Asked, int] = {
     "stable": batch.STABLE,
     "unstable": batch.UNSTABLE,
     "upper": batch.RUPTURE,
     "lower": batch.LOWER_END,
 }
-_LIMITS: dict[Limit, int] = {"stability": BRANCH_ENDS, "fold": FOLDS}
+LIMITS: dict[Limit, int] = {"stability": BRANCH_ENDS, "fold": FOLDS}
 
 
 class ConvergenceWarning(RuntimeWarning):
@@ -52,7 +55,7 @@ class Control(NamedTuple):
 
 
 class Problem(NamedTuple):
-    """A public question, reduced: rows of (D, H or V, k1, θ1, k2, θ2) in units of the smaller radius and of γ."""
+    """A public question, reduced: rows of (D, H or V, k1, θ1, k2, θ2) in a unit of length each, and in that of γ."""
 
     rows: Floats
     held: int
@@ -82,47 +85,96 @@ def control_of(
     return Control("suction", quantity("suction", suction, "Pa"))
 
 
-def reduce(pair: Pair, control: Control, liquid: Liquid, separation: ArrayLike) -> Problem:
-    """Check what depends on several arguments, broadcast, and divide by the smaller radius."""
+def reduce(
+    pair: Pair, control: Control, liquid: Liquid, separation: ArrayLike | None, filling: Floats | None = None
+) -> Problem:
+    """Check what depends on several arguments, broadcast, and divide by a unit of length.
+
+    Without a separation the rows have one at which a bridge is likely. A half-filling angle only lends its shape.
+    """
     check_pair(pair)
-    gap = quantity("separation", separation, "m")
     (radius1, radius2), (angle1, angle2) = pair.radii, pair.contact_angles
-    named = {"separation": gap, control.name: control.value, "radius[0]": radius1, "radius[1]": radius2}
+    given = {"separation": separation if separation is None else quantity("separation", separation, "m")}
+    given["half_filling_angle"] = filling
+    named = {name: array for name, array in given.items() if array is not None}
+    named |= {control.name: control.value, "radius[0]": radius1, "radius[1]": radius2}
     named |= {"contact_angle[0]": angle1, "contact_angle[1]": angle2}
-    arrays = broadcast(**named)
-    gap, value, radius1, radius2, angle1, angle2 = (np.ravel(array) for array in arrays)
+    arrays = dict(zip(named, broadcast(**named), strict=True))
+    value, radius1, radius2, angle1, angle2 = (np.ravel(array) for array in list(arrays.values())[-5:])
+    shape = arrays[control.name].shape
     length = np.minimum(radius1, radius2)
-    _refuse_deep_overlap(arrays[0], length.reshape(arrays[0].shape))
+    are_planes = np.isinf(length)
+    if separation is not None:
+        _refuse_deep_overlap(arrays["separation"], length.reshape(shape))
+    gap = np.ravel(arrays.get("separation", np.zeros(shape)))
+    if control.name == "volume":
+        length = np.where(are_planes, np.cbrt(value), length)
+    elif separation is not None:
+        length = np.where(are_planes, gap, length)
     with np.errstate(divide="ignore"):
         mean_radius = 2.0 / (1.0 / radius1 + 1.0 / radius2)
-    _refuse_beyond_domain(control, value, mean_radius, liquid)
+    _refuse_beyond_domain(control, value, mean_radius, gap, liquid)
     if control.name == "volume":
         held, reduced = VOLUME, value / length**3
     else:
         held, reduced = SUCTION, value * length / liquid.surface_tension
+    if separation is None:
+        gap = np.where(are_planes, _LIKELY_BETWEEN_PLANES * length, gap)
     rows = np.column_stack([gap / length, reduced, length / radius1, angle1, length / radius2, angle2])
-    return Problem(rows, held, arrays[0], length, liquid.surface_tension, arrays[0].shape)
+    return Problem(rows, held, arrays.get("separation", gap.reshape(shape)), length, liquid.surface_tension, shape)
 
 
-def _refuse_deep_overlap(separation: Floats, smaller_radius: Floats) -> None:
-    """Refuse an overlap of half the smaller radius or more, which is no contact of grains."""
-    too_deep = np.argwhere(separation <= -_DEEPEST_OVERLAP * smaller_radius)
-    if len(too_deep):  # one row of no indices for a single number
-        index = tuple(too_deep[0])
-        place = str(list(map(int, index))) if index else ""
+def refuse_drained_planes(pair: Pair, named: str) -> None:
+    """Refuse to look for a stable bridge between two planes under suction: there is none.
+
+    Examples
+    --------
+    >>> refuse_drained_planes(Pair(np.inf), "suction")
+    Traceback (most recent call last):
+        ...
+    ValueError: suction: holds no stable bridge between two planes, which dries up or floods the gap; hold a volume, \
+or ask bridge(branch='unstable') for the one between the two
+    """
+    first, second = pair.radii
+    if np.any(np.isinf(first) & np.isinf(second)):
         raise ValueError(
-            f"separation{place}: {separation[index]} m is not > {-_DEEPEST_OVERLAP * smaller_radius[index]:.6g}; "
-            f"an overlap may reach half the smaller radius"
+            f"{named}: holds no stable bridge between two planes, which dries up or floods the gap; hold a volume, "
+            "or ask bridge(branch='unstable') for the one between the two"
         )
 
 
-def _refuse_beyond_domain(control: Control, value: Floats, mean_radius: Floats, liquid: Liquid) -> None:
+def _refuse_deep_overlap(separation: Floats, smaller_radius: Floats) -> None:
+    """Refuse an overlap of half the smaller radius or more, which is no contact of grains, and any of two planes."""
+    lowest = np.where(np.isinf(smaller_radius), 0.0, -_DEEPEST_OVERLAP * smaller_radius)
+    too_deep = np.argwhere(separation <= lowest)
+    if len(too_deep):  # one row of no indices for a single number
+        index = tuple(too_deep[0])
+        place = str(list(map(int, index))) if index else ""
+        if np.isinf(smaller_radius[index]):
+            reason = "0; two planes in contact leave no room for liquid"
+        else:
+            reason = f"{lowest[index]:.6g}; an overlap may reach half the smaller radius"
+        raise ValueError(f"separation{place}: {separation[index]} m is not > {reason}")
+
+
+def _refuse_beyond_domain(
+    control: Control, value: Floats, mean_radius: Floats, separation: Floats, liquid: Liquid
+) -> None:
     """Refuse what the solver was not tried on: it has no meaning for grains either."""
+    are_planes = np.isinf(mean_radius)
+    if control.name == "volume":
+        narrow = np.flatnonzero(are_planes & (separation != 0.0) & (separation < _NARROWEST * np.cbrt(value)))
+        if narrow.size:
+            i = narrow[0]
+            raise ValueError(
+                f"separation: {separation[i]:.6g} m is not >= {_NARROWEST * np.cbrt(value[i]):.6g}, {_NARROWEST:g} of "
+                f"the cube root of the volume, where the domain between two planes ends"
+            )
     if control.name == "volume":
         unit, low, high, symbol = mean_radius**3, *_VOLUMES, "m^3"
     else:
         unit, low, high, symbol = liquid.surface_tension / mean_radius, -_MOST_SUCTION, _MOST_SUCTION, "Pa"
-    strange = np.flatnonzero(~((value >= low * unit) & (value <= high * unit)))
+    strange = np.flatnonzero(~are_planes & ~((value >= low * unit) & (value <= high * unit)))
     if strange.size:
         i = strange[0]
         allowed = f"[{low * unit[i]:.6g}, {high * unit[i]:.6g}] {symbol}"
@@ -135,13 +187,13 @@ def _refuse_beyond_domain(control: Control, value: Floats, mean_radius: Floats, 
 
 def solve(problem: Problem, asked: Asked, limit: Limit = "stability") -> Bridge:
     """Answer all rows."""
-    states, statuses = batch.answer(_ASKED[asked], problem.held, problem.rows, _LIMITS[limit])
+    states, statuses = batch.answer(ASKED[asked], problem.held, problem.rows, LIMITS[limit])
     return restore(problem, states, statuses, ())
 
 
 def trace(problem: Problem, points: int, limit: Limit) -> Bridge:
     """Answer all rows with whole curves, of so many points each."""
-    states, statuses = batch.draw(problem.held, problem.rows, points, _LIMITS[limit])
+    states, statuses = batch.draw(problem.held, problem.rows, points, LIMITS[limit])
     return restore(problem, states, statuses, (points,))
 
 

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..ask.face import bridge, rupture
 from ..ask.liquid import Liquid
 from ..ask.other_control import other_control_star
-from ..ask.pair import Pair, check_pair
+from ..ask.pair import Pair, check_pair, refuse_planes
 from ..ask.problem import Control, control_of, control_star, reduce
 from ..ground.check import whole_number
 from ..laws import Law, force_star, laws, rupture_star, rupture_work_star
@@ -124,6 +124,8 @@ def compare(
     """
     count = whole_number("points", points, _FEWEST)
     control = control_of(suction, volume, humidity, liquid)
+    check_pair(pair)
+    refuse_planes(pair, "no law knows")
     exact = _exact(pair, control, liquid, count)
     reduced = _reduce(exact, control, liquid)
     found, refused = [], {}

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..ground.colours import FAINT, GRAIN, GRAIN_EDGE, HAIR, INK, LIQUID
 from ..ground.units import Scale, scale_of, show
 from ..laws import laws
-from ..show.colours import FAINT, GRAIN, GRAIN_EDGE, HAIR, INK, LIQUID
 from .error_maps import ErrorMap
 from .one_pair import Comparison, LawAnswer
 from .sample import NO_BRIDGE

@@ -27,25 +27,44 @@ from .answers import (
     store_end,
 )
 from .equations import SUCTION, VOLUME
+from .filling import MOST_FOUND, SEVERAL, Filling, store_filling
 from .follow import BRANCH_ENDS
 from .locate import FOLD
 from .meridian import lay_meridian
 from .morph import Task
+from .nucleus import nucleus_stored
+from .search import are_planes
 from .state import State
 from .tracing import trace
 
-__all__ = ["FAILED", "FOUND", "LOWER_END", "NO_BRIDGE", "RUPTURE", "STABLE", "UNSTABLE", "answer", "draw", "lay"]
+__all__ = [
+    "FAILED",
+    "FOUND",
+    "LOWER_END",
+    "NO_BRIDGE",
+    "RUPTURE",
+    "SEVERAL",
+    "STABLE",
+    "UNSTABLE",
+    "answer",
+    "answer_filling",
+    "draw",
+    "lay",
+]
 
 Rows = NDArray[np.float64]
 Statuses = NDArray[np.int8]
 
 _MOST_NODES = 1200
-_NO_NODES = np.empty((0, 4))
 _CHUNK = 1024  # bridges that one thread takes at a time: some milliseconds, against which its start is nothing
 
 
 def _room_for_nodes() -> Rows:
     return np.empty((_MOST_NODES, 4))
+
+
+def _room_for_found() -> Rows:
+    return np.empty((MOST_FOUND, 4))
 
 
 @kernel
@@ -67,14 +86,17 @@ def bridge_range(
     start: int,
     stop: int,
 ) -> None:
-    """Answer the rows from start to stop; ``nodes`` has none."""
+    """Answer the rows from start to stop."""
     for i in range(start, stop):
         task = task_of(questions[i], control)
         status = NO_BRIDGE
-        if not holds_nothing(task):
+        if control == SUCTION and are_planes(task):
+            if asked == UNSTABLE:
+                status = nucleus_stored(task, nodes, states[i])
+        elif not holds_nothing(task):
             status = directly_stored(task, states[i]) if asked == STABLE else FAILED
             if status != FOUND:
-                end = answer_to(asked, limit, task, nodes)
+                end = answer_to(asked, limit, task, nodes[:0])
                 status = end.status
                 if status == FOUND:
                     status = store_end(end, states[i])
@@ -91,7 +113,7 @@ def answer(asked: int, control: int, questions: Rows, limit: int = BRANCH_ENDS) 
     """Answer rows of questions on all threads: their states and statuses."""
     count = len(questions)
     states, statuses = np.empty((count, len(State._fields))), np.empty(count, np.int8)
-    over_rows(bridge_range, count, _CHUNK, asked, limit, control, questions, states, statuses, _NO_NODES)
+    over_rows(bridge_range, count, _CHUNK, asked, limit, control, questions, states, statuses, Own(_room_for_nodes))
     return states, statuses
 
 
@@ -125,6 +147,52 @@ def draw(control: int, questions: Rows, points: int, limit: int = BRANCH_ENDS) -
     each = np.repeat(statuses[:, None], points, axis=1)
     each[(each == FOUND) & np.isnan(states[..., 0])] = NO_BRIDGE
     return states, each
+
+
+@entry(plain_cost=0.2)
+def filling_range(
+    asked: int,
+    limit: int,
+    control: int,
+    solid: int,
+    angles: NDArray[np.float64],
+    questions: Rows,
+    states: Rows,
+    separations: Rows,
+    statuses: Statuses,
+    nodes: Rows,
+    found: Rows,
+    start: int,
+    stop: int,
+) -> None:
+    """Bridges that have a half-filling angle, for the rows from start to stop."""
+    for i in range(start, stop):
+        task, angle = task_of(questions[i], control), float(angles[i])
+        status = NO_BRIDGE
+        if not holds_nothing(task):
+            filling = Filling(solid, angle, math.sin(angle), math.cos(angle))
+            status = store_filling(asked, limit, task, filling, nodes, found, states[i], separations[i])
+            if status == FAILED and control == SUCTION and task.value < 0.0:
+                status = NO_BRIDGE
+        statuses[i] = status
+        if status != FOUND:
+            states[i, :] = math.nan
+
+
+def answer_filling(
+    asked: int, control: int, solid: int, angles: NDArray[np.float64], questions: Rows, limit: int = BRANCH_ENDS
+) -> tuple[Rows, Statuses, Rows]:
+    """Bridges that have a half-filling angle on a solid, 0 or 1: their states and statuses.
+
+    The separation in a row of questions is NaN, or near to that of the bridge that is meant. The separations of all
+    bridges with the angle are the third result; where there are several and none is meant, the status is SEVERAL.
+    """
+    count = len(questions)
+    states, statuses = np.empty((count, len(State._fields))), np.empty(count, np.int8)
+    separations = np.full((count, MOST_FOUND), math.nan)
+    asking = (asked, limit, control, solid, angles, questions, states, separations, statuses)
+    over_rows(filling_range, count, 16, *asking, Own(_room_for_nodes), Own(_room_for_found))
+    return states, statuses, separations
 
 
 @entry(plain_cost=5e-3)

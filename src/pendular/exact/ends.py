@@ -17,7 +17,7 @@ from .guess import guess_at, rupture_at_suction, rupture_at_volume
 from .locate import ARRIVED, FOLD, LOST, PITCHFORK
 from .morph import Task, held_of
 from .newton import held_target, newton_to
-from .search import anchor, is_symmetric
+from .search import anchor, are_planes, is_symmetric
 
 _NEXT_TO_RUPTURE = 0.85  # of the estimate, where to start
 _MOST_STARTS, _MOST_STEPS = 4, 14
@@ -176,14 +176,17 @@ def upper_end(task: Task, stops_at: int, nodes: Nodes) -> tuple[Walk, bool]:
 
 @kernel
 def lower_end(task: Task, stops_at: int, nodes: Nodes) -> tuple[Walk, bool]:
-    """The end of the stable branch towards contact; the walk arrives if the branch goes on to contact, or below."""
-    stance, is_stable = anchor(task, nodes)
-    stance, curve = set_out(stance.z, held_of(task), is_symmetric(task), -1.0)
-    if not is_stable:
-        return Walk(LOST, stance, curve, 0, -1.0), False
-    if stance.separation < _THERE * math.exp(stance.z.log_length):
-        return Walk(ARRIVED, stance, curve, 0, -1.0), True
-    return follow(stance, curve, 0.0, stops_at, nodes[:0]), True
+    """The end of the stable branch towards contact; the walk arrives if the branch goes on to D = 0.
+
+    Between two planes it goes on without end, wider and wider.
+    """
+    if are_planes(task):
+        stance, is_found = anchor(task, nodes)
+        return Walk(ARRIVED, stance, Curve(held_of(task), is_symmetric(task), 1.0), 0, -1.0), is_found
+    walk, is_found = walk_from_anchor(task, -1.0, 0.0, stops_at, nodes)
+    if is_found and walk.stance.separation <= 0.0:
+        return Walk(ARRIVED, walk.stance, walk.curve, walk.nodes, walk.going), True
+    return walk, is_found
 
 
 @kernel

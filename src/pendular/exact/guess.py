@@ -17,6 +17,7 @@ _LEAST_COSINE = 0.7  # of the slope of the chord between the contact circles
 _MOST_TURN = 1.5  # |ω|
 _FARTHEST_SHIFT = 0.6  # of a contact radius from their mean, over it
 _THINNEST_MIDDLE = 0.25  # over the mean contact radius
+_LEAST_ROOM = 1e-12  # Σ cos θ - DH between planes, where a bridge is wider than all bounds
 _DEEPEST_BEND = -0.9  # cos of the half turn beyond which the sagitta of the circle is not used
 
 
@@ -148,6 +149,8 @@ def _torus_radius(held: Held, separation: float) -> float:
     """Largest root Y of the torus, k̄HY³ + (k̄β + B)Y² + (DH - C)Y + βD = 0."""
     mean, cosines, sines, bend = _torus_between(held.first, held.second)
     suction = held.value
+    if mean == 0.0:  # two planes: the one root
+        return bend * separation / max(cosines - separation * suction, _LEAST_ROOM)
     positive = max(suction, 0.0)
     linear = mean * bend + sines
     room = max(cosines - separation * positive, 0.02 * cosines)
@@ -220,7 +223,7 @@ def rupture_at_volume(held: Held) -> float:
     mean = 0.5 * (one.curvature + other.curvature)
     size = (math.pi * held.value) ** (1.0 / 3.0)
     difference = one.contact_angle - other.contact_angle
-    kappa = 0.5 * (one.curvature - other.curvature) / mean
+    kappa = 0.5 * (one.curvature - other.curvature) / mean if mean > 0.0 else 0.0
     terms = (
         1.0,
         0.5 * (one.contact_angle + other.contact_angle),

@@ -47,6 +47,12 @@ def is_symmetric(task: Task) -> bool:
 
 
 @kernel
+def are_planes(task: Task) -> bool:
+    """Whether both solids are planes."""
+    return task.curvature1 + task.curvature2 == 0.0
+
+
+@kernel
 def directly(task: Task) -> tuple[Stance, int]:
     """Where Newton's method leads from a guess: the bridge and its index, -1 where it did not converge."""
     held = held_of(task)
@@ -61,7 +67,7 @@ def _easy(task: Task, alike: bool) -> Task:
     mean = 0.5 * (task.curvature1 + task.curvature2)
     k1, k2 = (mean, mean) if alike else (task.curvature1, task.curvature2)
     if task.control == VOLUME:
-        value = min(task.value, _EASY_VOLUME / mean**3)
+        value = min(task.value, _EASY_VOLUME / mean**3) if mean > 0.0 else task.value
         separation = min(task.separation * (value / task.value) ** (1.0 / 3.0), 0.5 * (math.pi * value) ** (1.0 / 3.0))
     else:
         value = max(task.value, mean)
@@ -124,6 +130,8 @@ def anchor(task: Task, nodes: Nodes) -> tuple[Stance, bool]:
         return stance, True
     natural = _natural_separation(task)
     for share in _SHARES:
+        if share == 0.0 and are_planes(task):  # at contact they leave no room
+            continue
         stance, index = directly(at_separation(task, share * natural))
         if index == 0:
             return stance, True
@@ -132,6 +140,8 @@ def anchor(task: Task, nodes: Nodes) -> tuple[Stance, bool]:
         if is_stable:
             return stance, True
     for attempt in range(len(_MORPH_SHARES) + 1):
+        if attempt > 0 and _MORPH_SHARES[attempt - 1] == 0.0 and are_planes(task):
+            continue
         separation = task.separation if attempt == 0 else _MORPH_SHARES[attempt - 1] * natural
         hard = at_separation(task, separation)
         easy = _easy(hard, attempt > _ALIKE_FROM)

@@ -35,7 +35,7 @@ class State(NamedTuple):
     middle_slope: float
     half_length: float  # and half its arc length
     unstable_directions: float  # axisymmetric ones, under the given control
-    sideways_stable: float  # 1 if the liquid does not slip to one side
+    sideways_stable: float  # 1 if the liquid does not slip to one side; between planes it lies anywhere alike
 
 
 @kernel
@@ -93,7 +93,7 @@ def describe(z: Four, held: Held, symmetric: bool) -> Description:
         z.slope,
         math.exp(z.log_length),
         float(ladder.at_suction if held.control == SUCTION else ladder.at_volume),
-        1.0 if force >= 0.0 else 0.0,
+        1.0 if force >= 0.0 or held.first.curvature + held.second.curvature == 0.0 else 0.0,
     )
     miss = max(max(abs(system.contact1.value), abs(system.contact2.value)), abs(held_back.value))
     return Description(state, opening_of(z, system, held) > 0.0 and is_clear(z, system, held), miss)

@@ -22,16 +22,17 @@ from .answers import (
 )
 from .clearance import radius_range
 from .curve import Curve, corrected, set_out
-from .ends import lower_end, stable_bridge
+from .ends import lower_end, stable_bridge, upper_end
 from .equations import system_at
 from .follow import NOTHING, Nodes, back_from, beyond, follow, recorded
 from .locate import ARRIVED, FOLD, LOST, PITCHFORK
 from .morph import Task, held_of
-from .search import at_separation, is_symmetric
+from .search import are_planes, at_separation, is_symmetric
 from .state import describe
 
 Rows = NDArray[np.float64]
 
+_WIDEST = 0.2  # gap between planes where their curve begins, over the rupture distance
 _THREAD = 0.03  # thinnest circle of a drawn bridge over the widest of its branch
 
 
@@ -52,10 +53,17 @@ def _spread(nodes: Nodes, count: int, curve: Curve, states: Rows, skips_first: b
 
 @kernel
 def _first_of(task: Task, limit: int, nodes: Nodes) -> Answer:
-    """Where a curve begins: the bridge at contact, or the lower end of the stable branch."""
+    """Where a curve begins: the bridge at contact, or the lower end of the stable branch.
+
+    Bridges between planes grow without bounds towards contact: it begins at some of the rupture distance.
+    """
     walk, is_known = lower_end(task, limit, nodes)
     if is_known and walk.event == ARRIVED:
-        return bridge_of(stable_bridge(at_separation(task, 0.0), limit, nodes), 0.0)
+        separation = 0.0
+        if are_planes(task):
+            top, is_known = upper_end(task, limit, nodes)
+            separation = _WIDEST * top.stance.separation if is_known else math.nan
+        return bridge_of(stable_bridge(at_separation(task, separation), limit, nodes), separation)
     return end_of(walk, is_known)
 
 
@@ -94,7 +102,7 @@ def trace(limit: int, task: Task, states: Rows, nodes: Nodes) -> int:
         states[middle, STIFFNESS] = -math.inf
     if first.event == FOLD:
         states[0, STIFFNESS], states[0, UNSTABLE_DIRECTIONS] = math.inf, 0.0
-    if first.event == ARRIVED:
+    if first.event == ARRIVED and not are_planes(task):
         states[0, 0] = 0.0  # contact, which the solver meets to rounding
     stance, curve = beyond(walk)
     down = follow(stance, curve, 0.0, NOTHING, nodes)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from typer import Option
 
-from ..ground.units import Forms, Values, read, read_angle, read_fractions, read_values, show
+from ..ground.units import Forms, Values, read, read_angle, read_angles, read_fractions, read_values, show
 
 # NumPy and all that needs it are imported by those who use it: the help is shown without.
 if TYPE_CHECKING:
@@ -22,12 +22,14 @@ __all__ = [
     "Question",
     "in_terms_of_options",
     "read_contact_angle",
+    "read_filling_angle",
     "read_form",
     "read_question",
     "sweep_length",
 ]
 
 SEPARATIONS = Forms("1um", "0:8um:5", "1um,2um,5um")
+_FILLING_ANGLES = Forms("30", "10:60:6", "10deg,20deg,30deg")
 _SUCTIONS = Forms("20kPa", "1:20kPa:5", "1kPa,5kPa,20kPa")
 _VOLUMES = Forms("5pL", "1:5pL:5", "1pL,2pL,5pL")
 _HUMIDITIES = Forms("90%", "50%:90%:5", "50%,80%,90%")
@@ -39,7 +41,12 @@ _FREEZING_POINT = 273.15  # 0 °C, [K]
 _CONTROL_WORDS = {"humidity": "relative humidity"}
 
 # Where the library calls an argument otherwise than the option, and what it advises to a programmer.
-_OPTIONS = {"surface_tension": "surface-tension", "molar_volume": "molar-volume", "name": "liquid"}
+_OPTIONS = {
+    "half_filling_angle": "half-filling-angle",
+    "surface_tension": "surface-tension",
+    "molar_volume": "molar-volume",
+    "name": "liquid",
+}
 _ADVICE = {
     "make Liquid(surface_tension=...)": "give surface-tension in place of the name",
     "pass surface_tension=...": "give surface-tension as well",
@@ -47,6 +54,11 @@ _ADVICE = {
     "exactly one of suction, volume, humidity is needed": (
         "write one of --suction 20kPa, --volume 5pL, --humidity 90%"
     ),
+    "give a separation near to the one that is meant as well": "write --separation near to the one that is meant, too",
+    "; write (angle, None) or (None, angle)": "",
+    "(None, angle) names the other": "--half-filling-angle2 names the other",
+    "(angle, None) names the other": "--half-filling-angle names the other",
+    "ask bridge(branch='unstable')": "ask pendular bridge --branch unstable",
     "reduced_suction and reduced_volume": "reduced-suction and reduced-volume",
 }
 
@@ -65,6 +77,11 @@ class Question(NamedTuple):
     def put_to(self, function: "Callable[..., Bridge]", *args: "ArrayLike", **options: Any) -> "Bridge":
         """Ask one of the three functions of the library."""
         return function(self.pair, *args, **self.control, liquid=self.liquid, **options)
+
+    @property
+    def has_stable_bridges(self) -> bool:
+        """Whether there are any: two planes have none under suction."""
+        return "volume" in self.control or any(math.isfinite(radius) for radius in map(float, self.pair.radii))
 
     @property
     def held(self) -> dict[str, float]:
@@ -197,7 +214,8 @@ def in_terms_of_options(message: str) -> str:
     name, colon, reason = message.partition(": ")
     for to_programmers, to_all in _ADVICE.items():
         reason = reason.replace(to_programmers, to_all)
-    return _OPTIONS.get(name, name) + colon + reason
+    bare, bracket, index = name.partition("[")
+    return _OPTIONS.get(bare, bare) + bracket + index + colon + reason
 
 
 def read_form(as_json: bool, as_csv: bool, plot: Path | None) -> str:
@@ -253,6 +271,28 @@ def read_contact_angle(name: str, text: str) -> float:
     return degrees
 
 
+def read_filling_angle(first: str | None, second: str | None) -> tuple[int, Values] | None:
+    """Solid that a half-filling angle is given for, 0 or 1, and the angle in radians; None if none is given.
+
+    Examples
+    --------
+    >>> solid, angle = read_filling_angle(None, "30")
+    >>> solid, round(angle, 4)
+    (1, 0.5236)
+    """
+    if first is not None and second is not None:
+        raise ValueError("half-filling-angle2: given together with half-filling-angle; one of the two is needed")
+    name, text = ("half-filling-angle", first) if second is None else ("half-filling-angle2", second)
+    if text is None:
+        return None
+    degrees = read_angles(name, text, _FILLING_ANGLES)
+    for one in degrees if isinstance(degrees, list) else [degrees]:
+        if not 0.0 < one < 180.0:
+            raise ValueError(f"{name}: {one:.6g}° of {text!r} is not in (0, 180) degrees; write it like 30")
+    angle = [math.radians(one) for one in degrees] if isinstance(degrees, list) else math.radians(degrees)
+    return (0 if second is None else 1), angle
+
+
 def _control(suction: str | None, volume: str | None, humidity: str | None) -> dict[str, Values]:
     """Read what is held constant; that it is one thing is for the library to say."""
     control: dict[str, Values] = {}
@@ -306,7 +346,9 @@ def _nameless(tension: float | None, volume: float | None, kelvin: float, *, is_
 def _describe_solids(radii: tuple[float, float], degrees: tuple[float, float]) -> str:
     first, second = (f"{angle:.4g}°" for angle in degrees)
     angles = f"contact angle {first}" if first == second else f"contact angles {first} and {second}"
-    if math.isinf(radii[0]):
+    if math.isinf(radii[0]) and math.isinf(radii[1]):
+        solids = "Two plates"
+    elif math.isinf(radii[0]):
         solids = f"Plate and sphere of radius {show(radii[1], 'm', 4)}"
     elif math.isinf(radii[1]):
         solids = f"Sphere of radius {show(radii[0], 'm', 4)} on a plate"

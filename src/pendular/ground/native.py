@@ -12,7 +12,7 @@ import json
 import os
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import suppress
+from contextlib import AbstractContextManager, ExitStack, suppress
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -23,9 +23,12 @@ from .compile import fastmath_of, rebound
 from .files import whole
 from .stamp import stamp_of
 
-__all__ = ["build", "is_built", "load"]
+__all__ = ["build", "is_built", "load", "notices"]
 
 Native = Callable[..., None]
+
+notices: list[Callable[[], AbstractContextManager[Any]]] = []  # what tells whoever waits while a kernel is compiled
+
 _SEAL = hashlib.sha256().digest_size
 _NO_OWNER = (ctypes.c_void_p(None), ctypes.c_void_p(None))
 
@@ -43,7 +46,10 @@ def is_built(function: Callable[..., None], arguments: tuple[Any, ...]) -> bool:
 def build(function: Callable[..., None], arguments: tuple[Any, ...]) -> Native | None:
     """Compile a kernel for arguments of these types, keep its machine code where that can be done, and load it."""
     types = _types_of(arguments)
-    content = _compiled(function, arguments)
+    with ExitStack() as told:
+        for notice in notices:
+            told.enter_context(notice())
+        content = _compiled(function, arguments)
     with suppress(OSError):
         path = _path_of(function, types)
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -150,8 +156,7 @@ def _linked(content: bytes) -> Native:
     engine.add_object_file(llvm.ObjectFileRef.from_data(code))
     engine.finalize_object()
     address = engine.get_function_address(symbol)
-    function = ctypes.CFUNCTYPE(ctypes.c_int32)(address)
-    function.argtypes = None
+    function = ctypes.CFUNCTYPE(ctypes.c_int32)(address)  # of any arguments
     nothing, error = ctypes.c_void_p(), ctypes.c_void_p()
     answers = (ctypes.byref(nothing), ctypes.byref(error))
 
@@ -186,7 +191,7 @@ def _unlinked(function: Callable[..., Any]) -> Any:
     from numba import njit
     from numba.core.compiler import Compiler
 
-    class AheadOfTime(Compiler):  # type: ignore[misc]
+    class AheadOfTime(Compiler):
         def __init__(self, typing_context: Any, _context: Any, *rest: Any) -> None:
             super().__init__(typing_context, _context_of_files(), *rest)
             self.state.flags.no_compile = True
@@ -197,15 +202,16 @@ def _unlinked(function: Callable[..., Any]) -> Any:
             self.state.targetctx.insert_user_function(result.entry_point, result.fndesc, [result.library])
             return result
 
-    return njit(
-        error_model="numpy",
-        nogil=True,
-        fastmath=fastmath_of(function),
-        no_cpython_wrapper=True,
-        no_cfunc_wrapper=True,
-        _nrt=False,  # a kernel owns no memory
-        pipeline_class=AheadOfTime,
-    )(rebound(function, _unlinked))
+    options: dict[str, Any] = {
+        "error_model": "numpy",
+        "nogil": True,
+        "fastmath": fastmath_of(function),
+        "no_cpython_wrapper": True,
+        "no_cfunc_wrapper": True,
+        "_nrt": False,  # a kernel owns no memory
+        "pipeline_class": AheadOfTime,
+    }
+    return njit(**options)(rebound(function, _unlinked))
 
 
 @cache

@@ -12,6 +12,7 @@ __all__ = [
     "Values",
     "read",
     "read_angle",
+    "read_angles",
     "read_fraction",
     "read_fractions",
     "read_values",
@@ -159,12 +160,7 @@ def read_values(name: str, text: str, unit: str, forms: Forms) -> Values:
     >>> read_values("separation", "500nm,1um", "m", lengths), read_values("separation", "1um", "m", lengths)
     ([5e-07, 1e-06], 1e-06)
     """
-
-    def ends_of(first: str, last: str) -> tuple[str, str]:
-        own_units = (_split(name, first, forms.value)[1], _split(name, last, forms.value)[1])
-        return first + ("" if own_units[0] else own_units[1]), last + ("" if own_units[1] else own_units[0])
-
-    return _read_all(name, text, forms, lambda part: read(name, part, unit, forms.value), ends_of)
+    return _read_all(name, text, forms, lambda part: read(name, part, unit, forms.value), _sharing_units(name, forms))
 
 
 def read_fractions(name: str, text: str, forms: Forms) -> Values:
@@ -182,6 +178,27 @@ def read_fractions(name: str, text: str, forms: Forms) -> Values:
         return first, last
 
     return _read_all(name, text, forms, lambda part: read_fraction(name, part), ends_of)
+
+
+def read_angles(name: str, text: str, forms: Forms) -> Values:
+    """Angle or a sweep of such in degrees, in the forms of :func:`read_values`; a bare number is in degrees already.
+
+    Examples
+    --------
+    >>> read_angles("half-filling-angle", "10:30:3", Forms("30", "10:60:6", "10deg,20deg"))
+    [10.0, 20.0, 30.0]
+    """
+    return _read_all(name, text, forms, lambda part: read_angle(name, part), _sharing_units(name, forms))
+
+
+def _sharing_units(name: str, forms: Forms) -> Callable[[str, str], tuple[str, str]]:
+    """How the unit of one end of a sweep does for both."""
+
+    def ends_of(first: str, last: str) -> tuple[str, str]:
+        own_units = (_split(name, first, forms.value)[1], _split(name, last, forms.value)[1])
+        return first + ("" if own_units[0] else own_units[1]), last + ("" if own_units[1] else own_units[0])
+
+    return ends_of
 
 
 def _read_all(

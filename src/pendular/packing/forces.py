@@ -76,12 +76,12 @@ def _order_of(pairs: Integers, particles: int) -> Integers:
     for key in (1, 0):
         start = np.zeros(particles + 1, np.int64)
         for contact in order:
-            start[_ends(pairs, contact)[key] + 1] += 1
+            start[_ends(pairs, int(contact))[key] + 1] += 1
         for particle in range(particles):
             start[particle + 1] += start[particle]
         sorted_order = np.empty_like(order)
         for contact in order:
-            end = _ends(pairs, contact)[key]
+            end = _ends(pairs, int(contact))[key]
             sorted_order[start[end]] = contact
             start[end] += 1
         order = sorted_order

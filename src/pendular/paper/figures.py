@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from ..show.colours import FAINT, GRAIN, HAIR, INK
+from ..ground.colours import FAINT, GRAIN, HAIR, INK
 from . import sample, style
 from .geometry import geometry
 from .style import FORCE, PART, PRODUCT, SEPARATION, SUCTION

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..ask.face import Bridge, Pair
+from ..ground.colours import ACCENT, FAINT, GRAIN, GRAIN_EDGE, HAIR, INK, LIQUID, LIQUID_EDGE
 from ..ground.files import whole
 from ..ground.units import Scale, scale_of, show
-from .colours import ACCENT, FAINT, GRAIN, GRAIN_EDGE, HAIR, INK, LIQUID, LIQUID_EDGE
 from .scene import ASPECT, Scene, Window, far_window, mirrored, near_window, outline_of, round_length, scene_of
 
 if TYPE_CHECKING:

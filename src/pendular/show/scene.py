@@ -79,8 +79,10 @@ def scene_of(pair: Pair, bridge: Bridge, separation: float) -> Scene:
 
 
 def far_window(scene: Scene) -> Window:
-    """Window on both solids; of a plane, and of a far larger sphere, on the part next to the other solid."""
+    """Window on both solids; of planes, and of a far larger sphere, on the part next to the other solid."""
     small = min(scene.radii)
+    if math.isinf(small):
+        small = max(scene.gap, float(scene.y.max(initial=0.0)))
     depths = [2.0 * min(radius, 2.5 * small) if math.isfinite(radius) else 0.6 * small for radius in scene.radii]
     widest = scene.y.max(initial=min(max(scene.radii), 2.0 * small))
     along, across = 0.5 * (sum(depths) + scene.gap), float(widest)

@@ -18,7 +18,7 @@ from ..ground.units import Scale, scale_of, show
 
 if TYPE_CHECKING:
     import xarray as xr
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
     from rich.table import Table
 
 __all__ = [
@@ -119,11 +119,23 @@ def with_asked(bridge: Bridge, **asked: ArrayLike) -> Bridge:
     (nan, 0.001)
     """
     kept = {
-        name: plain(np.where(bridge.exists, getattr(bridge, name), values))
+        name: plain(np.where(_each(bridge.exists, name), getattr(bridge, name), values))
         for name, values in asked.items()
         if name in UNITS
     }
     return replace(bridge, **kept)
+
+
+def _each(exists: Any, name: str) -> Any:
+    """Whether there is a bridge, for each number of a field."""
+    return np.asarray(exists)[..., None] if name in _ENDINGS else exists
+
+
+def on_solid(values: ArrayLike, solid: int, bridge: Bridge) -> NDArray[np.float64]:
+    """Values that are known of one solid, 0 or 1, with the axis of both."""
+    both = np.full((*np.shape(bridge.exists), 2), math.nan)
+    both[..., solid] = values
+    return both
 
 
 def csv_text(*tables: list[Column]) -> str:

@@ -79,7 +79,7 @@ def scalar_range(asked: int, grid: Grid, x: Operands, out: Floats, start: int, s
             out[i] = kernels.energy(grid, element(x[0], i), control, radius1, radius2, gamma)
 
 
-def evaluate(asked: int, grid: Grid, x: Operands, out: Floats) -> None:
+def evaluate(asked: int, grid: Grid, x: tuple[Floats, ...], out: Floats) -> None:
     """Fill ``out`` with what is asked, on all threads; an operand of one element counts for all contacts."""
     if asked in (FORCE, LIQUID):
         room = Own(lambda: np.empty((12, _BLOCK))), Own(lambda: np.empty((3, _BLOCK), np.int64))

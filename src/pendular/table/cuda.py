@@ -16,7 +16,8 @@ from numba import config, cuda
 from numpy.typing import ArrayLike
 
 from ..ground.check import numbers, result_array
-from ..ground.compile import element, kernel
+from ..ground.compile import compiled, kernel
+from ..ground.rows import element
 from . import kernels
 from .kernels import Grid
 from .table import Table, operands_of
@@ -39,6 +40,7 @@ def _rupture_distance(
 @cache
 def loop_of(scalar: Callable[..., float]) -> Any:
     """A scalar kernel over contacts, one for each thread of the GPU."""
+    one, at = compiled(scalar), compiled(element)
 
     @cuda.jit
     def loop(
@@ -46,13 +48,13 @@ def loop_of(scalar: Callable[..., float]) -> Any:
     ) -> None:
         i = cuda.grid(1)  # type: ignore[attr-defined]
         if i < out.size:
-            out[i] = scalar(
+            out[i] = one(
                 grid,
-                element(separation, i),
-                element(control, i),
-                element(radius1, i),
-                element(radius2, i),
-                element(surface_tension, i),
+                at(separation, i),
+                at(control, i),
+                at(radius1, i),
+                at(radius2, i),
+                at(surface_tension, i),
             )
 
     return loop

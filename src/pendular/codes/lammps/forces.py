@@ -187,7 +187,7 @@ def add_forces(
         if distance <= sum_of_radii == bridges.heads[slot, SUM]:  # most bridges; a call takes as long as all the rest
             pull = bridges.heads[slot, TOUCHING]
         else:
-            pull = _from_record(bridges, slot, sum_of_radii, distance - sum_of_radii)
+            pull = _from_record(bridges, int(slot), sum_of_radii, distance - sum_of_radii)
         if pull == 0.0:
             broken[breaks] = bridges.candidate[slot]
             breaks += 1

@@ -178,7 +178,7 @@ def find_pairs(pairs: Candidates, x: Floats, atoms: Indices, tags: Integers) -> 
             tag, partner = tags[bridge, end], tags[bridge, 1 - end]
             atom = np.int64(atoms[tag]) if tag < atoms.size else -1
             if atom >= 0:
-                c, square = _nearest(pairs, x, atom, partner)
+                c, square = _nearest(pairs, x, int(atom), partner)
                 if square < least:
                     best, least = c, square
         found[bridge] = best

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...show.colours import ACCENT, FAINT, HAIR, INK, LIQUID_EDGE
+from ...ground.colours import ACCENT, FAINT, HAIR, INK, LIQUID_EDGE
 from . import reader
 from .audit import MIDDLE, Audit
 from .errors import measure

@@ -12,7 +12,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator, interp1d
 
 from ...ground.check import angle, in_range, scalar
 from .exact import exact_rows, exact_rupture
@@ -37,7 +36,7 @@ _SCALE = 0.3  # u R2/γ below which suctions are spread evenly, above evenly in 
 _BISECTIONS = 12
 _CURVES, _STATES = 64, 240  # where the curvatures along the gap are sampled: suctions, gaps of each
 _SAMPLES, _STRIDE = 64, 4  # where those along the suction are sampled: suctions, every fourth block
-_FOLDS, _FINE = 600, 8000  # points of the rupture curve, and of the spacing along the gap
+_FOLDS, _FINE = 2400, 8000  # points of the rupture curve, and of the spacing along the gap
 
 
 class _Folds(NamedTuple):
@@ -186,8 +185,9 @@ def _suctions(ratio: float, theta: float, tolerance: float, folds: _Folds, gaps:
     sampled = np.union1d(np.arange(0, len(gaps), _STRIDE), len(gaps) - 1)
     asked = suctions[sampled]
     bend = _bend(asked, exact_rows(ratio, theta, gaps[sampled, None], asked), exact_rows(ratio, theta, 0.0, asked))
-    of_unit_length = interp1d(sampled, bend * ends[sampled, None] ** 2, axis=0)
-    bend = np.asarray(of_unit_length(np.arange(len(gaps))), float) / ends[:, None] ** 2
+    of_unit_length = bend * ends[sampled, None] ** 2
+    between = [np.interp(np.arange(len(gaps)), sampled, column) for column in of_unit_length.T]
+    bend = np.column_stack(between) / ends[:, None] ** 2
     # The largest of three neighbours: a row stands for all that is between it and the next.
     padded = np.pad(bend, ((0, 0), (1, 1)), mode="edge")
     bend = np.maximum(np.maximum(padded[:, :-2], padded[:, 1:-1]), padded[:, 2:])
@@ -198,8 +198,7 @@ def _suctions(ratio: float, theta: float, tolerance: float, folds: _Folds, gaps:
 def _last_suctions(folds: _Folds, gaps: Floats) -> Floats:
     """Suction at which each gap is so close to the rupture distance that its block ends."""
     coordinate = np.arcsinh(folds.suctions / _SCALE)
-    at_rupture = PchipInterpolator(np.log(folds.ruptures[::-1]), coordinate[::-1])
-    first, last = np.log(folds.ruptures[[-1, 0]])
     with np.errstate(divide="ignore"):
-        ends: Floats = _SCALE * np.sinh(at_rupture(np.clip(np.log(gaps / _END), first, last)))
+        asked = np.log(gaps / _END)
+    ends: Floats = _SCALE * np.sinh(np.interp(asked, np.log(folds.ruptures[::-1]), coordinate[::-1]))
     return ends

@@ -53,7 +53,9 @@ def contact_with(solid: Solid, radius: float, cos_slope: float, sin_slope: float
     sine = solid.cos_angle * cos_slope - solid.sin_angle * sin_slope  # of δ
     cosine = solid.sin_angle * cos_slope + solid.cos_angle * sin_slope
     turned = k * radius
-    if k > 0.0 and cosine < _PAST_EQUATOR:
+    if k == 0.0:
+        height, by_radius, by_slope = 0.0, 0.0, 0.0
+    elif cosine < _PAST_EQUATOR:
         height, by_radius, by_slope = (1.0 - cosine) / k, 0.0, -sine / k
     else:
         height = turned * radius / (1.0 + cosine)

@@ -214,17 +214,13 @@ def compiling_shown() -> Iterator[None]:
     if not sys.stderr.isatty():
         yield
         return
-    from numba.core import event
     from rich.console import Console
 
-    status = Console(stderr=True).status("compiling the solver (first run only)")
+    from ...ground.native import notices
 
-    class Notice(event.Listener):
-        def on_start(self, event: Any) -> None:
-            status.start()
-
-        def on_end(self, event: Any) -> None:
-            status.stop()
-
-    with event.install_listener("numba:compile", Notice()):
+    console = Console(stderr=True)
+    notices.append(lambda: console.status("compiling the solver, once on this machine: most of a minute"))
+    try:
         yield
+    finally:
+        notices.pop()

@@ -1,11 +1,12 @@
 """Commands for one pair: a bridge, its rupture, its force curve."""
 
-from typing import TYPE_CHECKING, Annotated
+import math
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
-from ...ground.units import read_values, show
-from ..options import SEPARATIONS, Question, sweep_length
+from ...ground.units import Values, read_values, show
+from ..options import SEPARATIONS, Question, read_filling_angle, sweep_length
 from ._app import print_answer, question_command, save_picture
 
 if TYPE_CHECKING:
@@ -30,11 +31,22 @@ _SWEPT = ("force", "volume", "suction", "neck_radius")  # what the table of a sw
 def bridge(
     question: Question,
     separation: Annotated[
-        str,
+        str | None,
         typer.Option(
             help="Gap from surface to surface: 1um; a sweep, 0:8um:5; or a list, 1um,2um,5um.", metavar="LENGTH"
         ),
-    ],
+    ] = None,
+    half_filling_angle: Annotated[
+        str | None,
+        typer.Option(
+            help="In its place: half-filling angle on the first solid, 30 or 10:60:6. Of several bridges with it a "
+            "separation chooses the nearest.",
+            metavar="ANGLE",
+        ),
+    ] = None,
+    half_filling_angle2: Annotated[
+        str | None, typer.Option(help="Or half-filling angle on the second solid.", metavar="ANGLE")
+    ] = None,
     branch: Annotated[str, typer.Option(help="Which of two bridges: stable, or unstable.")] = "stable",
 ) -> None:
     """Force, shape and energies of a bridge, and its rupture distance.
@@ -44,26 +56,30 @@ def bridge(
     from ...ask import face as bridges
     from ...show import text as report
 
-    gap = read_values("separation", separation, "m", SEPARATIONS)
-    length = sweep_length(separation=gap, **question.control)
+    asked = _asked(separation, half_filling_angle, half_filling_angle2)
+    length = sweep_length(**asked.values, **question.control)
     _refuse_picture_of_sweep(question)
-    answer = report.with_asked(question.put_to(bridges.bridge, gap, branch=branch), separation=gap, **question.control)
-    end = question.put_to(bridges.rupture)
-    if isinstance(gap, list):
-        _draw(question, end)
-    else:
-        _draw(question, end, answer, gap)
-    limit = report.spread("rupture_separation", "m", end.separation, answer)
+    answer = _with_asked(question.put_to(bridges.bridge, branch=branch, **asked.arguments), asked, question)
+    end = question.put_to(bridges.rupture) if question.has_stable_bridges else None
+    _draw(question, end, *_place_of(answer, asked))
+    limits = [] if end is None else [report.spread("rupture_separation", "m", end.separation, answer)]
     if question.form == "json":
-        typer.echo(_json(question, answer, limit))
+        typer.echo(_json(question, answer, *limits))
     elif question.form == "csv":
-        typer.echo(_csv(question, answer, limit), nl=False)
+        typer.echo(_csv(question, answer, *limits), nl=False)
     elif length is not None:
-        gaps = report.column_of("separation", answer)
-        _print_sweep(question, answer, gaps, limit._replace(name="rupture_distance"))
+        columns = [
+            report.column_of("separation", answer),
+            *(limit._replace(name="rupture_distance") for limit in limits),
+        ]
+        if asked.solid is not None:
+            columns.insert(0, report.Column("half_filling_angle", "rad", answer.half_filling_angle[..., asked.solid]))
+        _print_sweep(question, answer, *columns)
     else:
-        rupture_distance = (show(float(end.separation), "m"), "separation at which the bridge breaks")
-        print_answer(question, report.state_table(answer, {"rupture distance": rupture_distance}))
+        more = {}
+        if end is not None:
+            more["rupture distance"] = (show(float(end.separation), "m"), "separation at which the bridge breaks")
+        print_answer(question, report.state_table(answer, more))
 
 
 @question_command(
@@ -140,6 +156,55 @@ def curve(
         print_answer(question, report.curve_table(states) if end.exists else "no bridge between solids apart")
 
 
+class _Asked(NamedTuple):
+    """What tells which bridge is meant: a separation, or a half-filling angle on a solid."""
+
+    values: dict[str, Values]  # of the options, in SI units
+    solid: int | None  # 0 or 1, with an angle
+
+    @property
+    def arguments(self) -> dict[str, Any]:
+        """Arguments of the library."""
+        if self.solid is None:
+            return dict(self.values)
+        angle = self.values["half_filling_angle"]
+        named = {"half_filling_angle": (angle, None) if self.solid == 0 else (None, angle)}
+        return {**self.values, **named}
+
+
+def _asked(separation: str | None, first: str | None, second: str | None) -> _Asked:
+    """Read what tells which bridge is meant."""
+    filling = read_filling_angle(first, second)
+    values: dict[str, Values] = {}
+    if separation is not None:
+        values["separation"] = read_values("separation", separation, "m", SEPARATIONS)
+    elif filling is None:
+        raise ValueError("separation: missing; write --separation 1um, or --half-filling-angle 30")
+    if filling is None:
+        return _Asked(values, None)
+    return _Asked({**values, "half_filling_angle": filling[1]}, filling[0])
+
+
+def _place_of(answer: "Bridge", asked: _Asked) -> "tuple[Bridge, float] | tuple[()]":
+    """Bridge and separation of one state to draw; nothing of several, or of an angle that no bridge has."""
+    gap = asked.values.get("separation") if asked.solid is None else answer.separation
+    if sweep_length(**asked.values) is not None or not isinstance(gap, float) or math.isnan(gap):
+        return ()
+    return answer, gap
+
+
+def _with_asked(answer: "Bridge", asked: _Asked, question: Question) -> "Bridge":
+    """Answer that tells what was asked also where there is no bridge."""
+    from ...show import text as report
+
+    values: dict[str, Any] = dict(question.control)
+    if asked.solid is None:
+        values["separation"] = asked.values["separation"]
+    else:
+        values["half_filling_angle"] = report.on_solid(asked.values["half_filling_angle"], asked.solid, answer)
+    return report.with_asked(answer, **values)
+
+
 def _json(question: Question, answer: "Bridge", *more: "Column") -> str:
     """Fields of an answer and further columns, under their names."""
     from ...show import text as report
@@ -173,12 +238,14 @@ def _humidity(question: Question, answer: "Bridge") -> "list[Column]":
 
 
 def _refuse_picture_of_sweep(question: Question) -> None:
-    """Refuse to draw bridges of several controls, whose curves differ."""
+    """Refuse to draw bridges of several controls, whose curves differ, and those without stable ones beside them."""
+    if question.picture is not None and not question.has_stable_bridges:
+        raise ValueError("plot: draws a bridge beside the stable ones, of which two planes under suction have none")
     if question.picture is not None and sweep_length(**question.control) is not None:
         raise ValueError(f"plot: draws the bridges of one {', '.join(question.control)}, not of a sweep of it")
 
 
-def _draw(question: Question, end: "Bridge", state: "Bridge | None" = None, separation: float = 0.0) -> None:
+def _draw(question: Question, end: "Bridge | None", state: "Bridge | None" = None, separation: float = 0.0) -> None:
     """Draw the picture, if one is wanted."""
-    if question.picture is not None:
+    if question.picture is not None and end is not None:
         save_picture(question.draw(end, state, separation), question.picture)

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...ask.face import Bridge
+from ...ground.colours import ACCENT, FAINT, HAIR, INK, LIQUID_EDGE
 from ...ground.units import Scale, scale_of, show
-from ...show.colours import ACCENT, FAINT, HAIR, INK, LIQUID_EDGE
 from ...show.text import UNITS
 from .answer import Answer
 

@@ -7,7 +7,7 @@ import typer
 from nicegui import app, run, ui
 from starlette.requests import Request
 
-from ...show import colours
+from ...ground import colours
 from .answer import answer_to
 from .page import Explorer
 from .view import View

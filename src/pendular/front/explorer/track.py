@@ -3,8 +3,6 @@
 import math
 from typing import Literal, NamedTuple
 
-from scipy.constants import zero_Celsius
-
 from ...ask.liquid import humidity_from_suction
 from ...ground.units import show
 from ...show.text import UNITS
@@ -12,6 +10,7 @@ from .answer import Answer
 
 __all__ = ["Track", "held_instead", "track_of", "value_of", "written"]
 
+_ZERO_CELSIUS = 273.15  # [K]
 _UNITS = {**UNITS, "radius": "m", "radius2": "m", "surface_tension": "N/m"}
 
 
@@ -64,12 +63,13 @@ _FIXED = {
     "radius2": _RADIUS,
     "contact_angle": _ANGLE,
     "contact_angle2": _ANGLE,
-    "temperature": Track(zero_Celsius, zero_Celsius + 100.0, 200),
+    "temperature": Track(_ZERO_CELSIUS, _ZERO_CELSIUS + 100.0, 200),
     "surface_tension": Track(1e-3, 1.0, 300, "logarithmic"),
     "suction": Track(10.0, 1e8, 350, "logarithmic"),
     "humidity": Track(0.5, 1.0 - 1e-6, 285, "complement"),
 }
 _VOLUME_STAR = 1e-8, 1.0  # over the cube of the Derjaguin radius
+_BETWEEN_PLANES = 0.1, 1e5  # over the cube of the gap
 _BEYOND = 1.25  # over the rupture distance
 _NO_RUPTURE_STAR = 0.2  # over the Derjaguin radius, where solids hold no bridge apart
 
@@ -80,8 +80,9 @@ def track_of(name: str, answer: Answer) -> Track:
         return _FIXED[name]
     mean_radius = float(answer.question.pair.derjaguin_radius)
     if name == "volume":
-        low, high = _VOLUME_STAR
-        return Track(low * mean_radius**3, high * mean_radius**3, 320, "logarithmic")
+        are_planes = math.isinf(mean_radius)
+        (low, high), unit = (_BETWEEN_PLANES, answer.separation) if are_planes else (_VOLUME_STAR, mean_radius)
+        return Track(low * unit**3, high * unit**3, 320, "logarithmic")
     end = answer.rupture
     return Track(0.0, _BEYOND * float(end.separation) if end.exists else _NO_RUPTURE_STAR * mean_radius, 250)
 
@@ -95,7 +96,7 @@ def value_of(name: str, answer: Answer) -> float:
         "radius2": float(radius2),
         "contact_angle": math.degrees(angle1),
         "contact_angle2": math.degrees(angle2),
-        "temperature": liquid.temperature or zero_Celsius,
+        "temperature": liquid.temperature or _ZERO_CELSIUS,
         "surface_tension": liquid.surface_tension,
         "separation": answer.separation,
         **answer.question.held,
@@ -126,7 +127,7 @@ def written(name: str, value: float, digits: int = 3) -> str:
         dryness = float(f"{1.0 - value:.{digits}g}")
         return f"{100.0 * (1.0 - dryness):.12g} %"
     if name == "temperature":
-        return f"{value - zero_Celsius:.4g} °C"
+        return f"{value - _ZERO_CELSIUS:.4g} °C"
     if name.startswith("contact_angle"):
         return f"{value:.4g}°"
     return show(value, _UNITS[name], digits)
