@@ -51,6 +51,14 @@ def moved(start: Four, step: float, direction: Four) -> Four:
 
 
 @kernel
+def ratio(a: float, b: float) -> float:
+    """a/b, infinite where b vanishes."""
+    if b != 0.0:
+        return a / b
+    return math.copysign(math.inf, a) * math.copysign(1.0, b) if a != 0.0 else math.nan
+
+
+@kernel
 def scaled(factor: float, a: Four) -> Four:
     """Return factor·a."""
     return Four(factor * a[0], factor * a[1], factor * a[2], factor * a[3])

@@ -109,11 +109,23 @@ def bridge_range(
             states[i, :] = math.nan
 
 
+def _plainly(
+    asked: int, limit: int, control: int, questions: Rows, states: Rows, statuses: Statuses, nodes: Rows, *_: int
+) -> None:
+    """Answer the rows one by one in plain Python; where its arithmetic has no answer, as 1/0, the row has failed."""
+    for i in range(len(questions)):
+        try:
+            bridge_range(asked, limit, control, questions, states, statuses, nodes, i, i + 1)
+        except (ArithmeticError, ValueError):
+            states[i, :], statuses[i] = math.nan, FAILED
+
+
 def answer(asked: int, control: int, questions: Rows, limit: int = BRANCH_ENDS) -> tuple[Rows, Statuses]:
     """Answer rows of questions on all threads: their states and statuses."""
     count = len(questions)
     states, statuses = np.empty((count, len(State._fields))), np.empty(count, np.int8)
-    over_rows(bridge_range, count, _CHUNK, asked, limit, control, questions, states, statuses, Own(_room_for_nodes))
+    asking = (asked, limit, control, questions, states, statuses)
+    over_rows(bridge_range, count, _CHUNK, *asking, Own(_room_for_nodes), plainly=_plainly)
     return states, statuses
 
 

@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 from ..ground.compile import kernel
-from .algebra import Four, dot, minors, normal
+from .algebra import Four, dot, minors, normal, ratio
 from .clearance import is_clear, opening_of
 from .equations import SUCTION, Held, curvature_of, first_row, force_of, force_rates, held_row, system_at
 from .meridian import extreme_phases, middle_of, tensor_of
@@ -80,7 +80,7 @@ def describe(z: Four, held: Held, symmetric: bool) -> Description:
         2.0 * across + axial,
         across,
         axial,
-        dot(force_rates(z), tangent) / dot(system.separation.rates, tangent),
+        ratio(dot(force_rates(z), tangent), dot(system.separation.rates, tangent)),
         neck,
         1.0 if neck_inside else 0.0,
         first.radius,

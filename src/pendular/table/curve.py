@@ -86,7 +86,7 @@ def curve_of(
         force = [
             kernels.force(grid, rupture * (1.0 - x * x), control, radius1, radius2, surface_tension) for x in q.tolist()
         ]
-        series: Floats = np.polynomial.chebyshev.chebfit(2.0 * q - 1.0, force, terms - 1)
+        series = np.asarray(np.polynomial.chebyshev.chebfit(2.0 * q - 1.0, force, terms - 1), np.float64)
         if terms == _MOST_TERMS or np.abs(series[-2:]).max() <= 0.05 * tolerance * np.abs(force).max():
             return ForceCurve(rupture, series)
         terms += _TERMS
