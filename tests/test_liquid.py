@@ -561,7 +561,7 @@ def test_bad_suction_is_refused(suction, message):
             "liquid: water lacks molar_mass (or molar_volume), needed for humidity; give it to Liquid(...)",
         ),
         (
-            Liquid.named("squalane"),
+            Liquid(0.028, molar_mass=0.4228, temperature=293.15, name="squalane"),
             "liquid: squalane lacks density (or molar_volume), needed for humidity; give it to Liquid(...)",
         ),
     ],
