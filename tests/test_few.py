@@ -75,3 +75,21 @@ def test_who_keeps_asking_is_answered_by_the_compiled_solver(monkeypatch):
     assert few.by_cost("batch", "answer", 10_000) is batch.answer
     monkeypatch.setattr(few, "_spent", dict.fromkeys(few._spent, 10.0))
     assert few.by_cost("batch", "answer", 1) is batch.answer
+
+
+@pytest.mark.parametrize(("angle", "separation"), [(1.17, 0.59), (0.5, 0.32), (0.65, 0.78)])
+def test_a_step_of_exactly_zero_is_no_error(angle, separation):
+    """Newton's method from the bridge itself, between planes."""
+    from pendular._plain.exact.equations import Held
+    from pendular._plain.exact.guess import guess_at
+    from pendular._plain.exact.newton import newton_to
+    from pendular._plain.exact.solids import solid_of
+
+    held = Held(solid_of(0.0, angle), solid_of(0.0, angle), VOLUME, 1.0)
+    first, is_met = newton_to(guess_at(held, separation), separation, held, 14)
+    assert is_met
+    z = first
+    for _ in range(5):
+        z, is_met = newton_to(z, separation, held, 14)
+        assert is_met
+        np.testing.assert_allclose(z, first, rtol=0.0, atol=1e-14)
