@@ -14,6 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import pendular.ask.liquid
+from pendular.ask.kept_liquids import density_at, kept_liquids, tension_at
 from pendular.ask.liquid import (
     KelvinWarning,
     Liquid,
@@ -23,7 +24,6 @@ from pendular.ask.liquid import (
     suction_from_humidity,
     warn_kelvin,
 )
-from pendular.ask.kept_liquids import density_at, kept_liquids, tension_at
 
 LIBRARY = pytest.mark.needs("liquids")  # thermo and chemicals, with all liquids that are not kept
 UNITS = pint.UnitRegistry()
@@ -561,7 +561,7 @@ def test_bad_suction_is_refused(suction, message):
             "liquid: water lacks molar_mass (or molar_volume), needed for humidity; give it to Liquid(...)",
         ),
         (
-            Liquid.named("squalane"),
+            Liquid(0.028, molar_mass=0.4228, temperature=293.15, name="squalane"),
             "liquid: squalane lacks density (or molar_volume), needed for humidity; give it to Liquid(...)",
         ),
     ],

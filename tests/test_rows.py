@@ -252,3 +252,16 @@ def test_an_infinite_stiffness_at_rupture_passes_through_machine_code(by_machine
     states, statuses = by_machine(batch.RUPTURE, SUCTION, questions(SUCTION, 8))
     assert (statuses == batch.FOUND).all()
     assert (states[2:, State._fields.index("stiffness")] == -math.inf).all()
+
+
+def test_a_step_of_exactly_zero_is_no_division_by_zero():
+    """Newton's method from the very bridge, in plain Python."""
+    from pendular.exact.equations import Held
+    from pendular.exact.guess import guess_at
+    from pendular.exact.newton import newton_to
+    from pendular.exact.solids import solid_of
+
+    solid = solid_of(1.0, 0.3)
+    held = Held(solid, solid, SUCTION, 1.0)
+    z, _ = newton_to(guess_at(held, 0.01), 0.01, held, 14)
+    assert newton_to(z, 0.01, held, 14)[1]

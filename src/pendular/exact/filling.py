@@ -270,10 +270,13 @@ def store_filling(
         away = 0.0 if math.isnan(task.separation) else abs(row[0] - task.separation)
         if away < nearest:
             best, nearest = i, away
+    if math.isnan(task.separation):
+        if bridges > 1:
+            return SEVERAL
+        if status != FOUND:  # of a branch that was lost on the way there may be more
+            return FAILED
     if bridges == 0:
         return NO_BRIDGE if status == FOUND else FAILED
-    if bridges > 1 and math.isnan(task.separation):
-        return SEVERAL
     z = recorded(found, best)
     store(describe(z, held, symmetric and abs(z.slope) < _SAME), LARGEST_MISS, row)
     if asked == STABLE and limit == BRANCH_ENDS:

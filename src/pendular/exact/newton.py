@@ -10,6 +10,7 @@ from .meridian import Row
 _LONGEST_STEP = 1.0
 _MOST_TURN = 9.0  # |ω| beyond which an arc winds about itself
 _COARSE_STEP = 1e-4  # from which on the finer nodes are used
+_NO_STEP = 1e-20  # a guess may be the bridge itself
 _LEFT = 1e-16  # largest change that would follow
 _NEARLY_HELD = 0.3  # share of the volume above which its logarithm is what is corrected
 
@@ -42,11 +43,11 @@ def newton_to(z: Four, separation: float, held: Held, most: int) -> tuple[Four, 
         size = largest(change)
         if not size < 1e6:
             break
-        z = moved(z, min(1.0, _LONGEST_STEP / size), change)
+        z = moved(z, _LONGEST_STEP / max(size, _LONGEST_STEP), change)
         if not abs(z.turn) < _MOST_TURN:
             break
         # what is left after a step is its square, by the factor that made it the square of the one before
         if fine and size * (size / before) ** 2 < _LEFT:
             return z, True
-        fine, before = size < _COARSE_STEP, size
+        fine, before = size < _COARSE_STEP, max(size, _NO_STEP)
     return z, False
