@@ -51,6 +51,14 @@ def keep_initials(app: Sphinx, what: str, name: str, thing: object, options: obj
     lines[:] = [re.sub(r"^( *\.\. \[[^]]+\] )(?=[A-Z]\. )", r"\1\\", line) for line in lines]
 
 
+def tell_variable(app: Sphinx, what: str, name: str, thing: object, options: object, lines: list[str]) -> None:
+    """Say what a variable of laws means, in place of what its class is."""
+    if what == "data" and hasattr(thing, "text"):
+        lines[:] = [f"``{thing.name}``: {thing.text}, [{thing.unit}], from {thing.low:g} to {thing.high:.6g}."]
+    elif what == "data" and hasattr(thing, "size_words"):
+        lines[:] = [f"{thing.angle_words}, {thing.size_words}."]
+
+
 def skip_fields(app: Sphinx, what: str, name: str, thing: object, skip: bool, options: object) -> bool | None:
     """Leave out the fields of named tuples: the signature has them, and Python's text for them says nothing."""
     return True if getattr(thing, "__doc__", None) and thing.__doc__.startswith("Alias for field number") else None
@@ -69,5 +77,6 @@ def setup(app: Sphinx) -> None:
 
     app.connect("builder-inited", lambda app: make(Path(app.srcdir)))
     app.connect("autodoc-process-docstring", keep_initials, priority=900)  # after numpydoc
+    app.connect("autodoc-process-docstring", tell_variable, priority=900)
     app.connect("autodoc-skip-member", skip_fields)
     app.connect("html-page-context", finish)

@@ -103,6 +103,21 @@ def test_kernels_have_the_common_signature(law):
         assert kernel is None or list(inspect.signature(kernel).parameters) == names
 
 
+@pytest.mark.parametrize("law", LAWS, ids=by_name)
+def test_help_of_every_function_has_all_that_the_record_knows(law):
+    for function in (*law.kernels.values(), *law.steps):
+        told = inspect.getdoc(function)
+        for name in inspect.signature(function).parameters:
+            assert re.search(rf"^(\w+, )?{name}(, \w+)? : (float|tuple of float)\n    [A-Z].*\[", told, re.MULTILINE)
+        sections = re.findall(r"^(\w+)\n-+$", told, re.MULTILINE)
+        assert sections == ["Parameters", "Returns", "Notes", "References", "Examples"]
+        owner = laws[function.__module__.rpartition(".")[2]]  # another law, where its function serves here as well
+        one_line = re.sub(r"\s+", " ", told)
+        assert owner.valid_text[1:] in one_line
+        assert owner.reference[1:] in one_line
+        assert owner.doi in told.replace("\n", "")
+
+
 # --- transcription ----------------------------------------------------------------------------------------------------
 
 

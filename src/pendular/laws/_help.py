@@ -38,8 +38,8 @@ def add_help_of(law: "Law") -> None:
     returned = {symbol.name: symbol for answers in law.steps.values() for symbol in answers}
     symbols: dict[str, Variable] = {**SHARED, **limits, **returned, **{symbol.name: symbol for symbol in law.symbols}}
     about = {
-        "validity": f"{law.valid_text}.",
-        "source": f"{law.reference[0].upper()}{law.reference[1:]}{f', doi:{law.doi}' if law.doi else ''}.",
+        "validity": f"{_as_sentence(law.valid_text)}.",
+        "source": f"{_as_sentence(law.reference)}{f', doi:{law.doi}' if law.doi else ''}.",
     }
     for quantity, kernel in law.kernels.items():
         solids, ends = law.solids[quantity], quantity == "force" and "rupture" in law.gives
@@ -136,4 +136,9 @@ def _returns(function: Callable[..., Any], returned: tuple[Variable, ...], besid
 
 def _block(text: str) -> str:
     """Sentence under the name of a parameter."""
-    return indent(fill(text[0].upper() + text[1:], _WIDTH - 4), "    ")
+    return indent(fill(_as_sentence(text), _WIDTH - 4), "    ")
+
+
+def _as_sentence(text: str) -> str:
+    """Text with a capital in front, unless it begins with the name of a variable."""
+    return text if "_" in text.partition(" ")[0] else text[0].upper() + text[1:]
