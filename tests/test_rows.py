@@ -1,7 +1,8 @@
-"""Rows in plain Python and by machine code: the same answers, and no compiler where it is missing or not worth while."""
+"""Rows in plain Python and by machine code: the same answers, and no compiler where there is none or it is no gain."""
 
 import json
 import math
+import os
 import subprocess
 import sys
 
@@ -10,7 +11,10 @@ import pytest
 
 import pendular as pl
 from pendular.exact import batch
-from pendular.exact.equations import SUCTION, VOLUME
+from pendular.exact.equations import SUCTION, VOLUME, Held
+from pendular.exact.guess import guess_at
+from pendular.exact.newton import newton_to
+from pendular.exact.solids import solid_of
 from pendular.exact.state import State
 from pendular.ground import native, rows
 
@@ -130,7 +134,8 @@ import json
 import numpy as np
 import pendular as pl
 volume = np.geomspace(1e-6, 1e-2, 100)
-print(json.dumps([float(pl.bridge(pl.Pair(1.0, 0.3), 0.0, volume=volume, liquid=pl.Liquid(surface_tension=1.0)).force.sum())]))
+bridge = pl.bridge(pl.Pair(1.0, 0.3), 0.0, volume=volume, liquid=pl.Liquid(surface_tension=1.0))
+print(json.dumps([float(bridge.force.sum())]))
 """
     (found,) = answers_of(WITHOUT_NUMBA + script)
     volume = np.geomspace(1e-6, 1e-2, 100)
@@ -191,8 +196,6 @@ def small(tmp_path):
 
 
 def started(folder, cache="kept"):
-    import os
-
     environment = os.environ | {"PENDULAR_CACHE_DIR": str(folder / cache), "PYTHONDONTWRITEBYTECODE": "1"}
     return subprocess.Popen(
         [sys.executable, "-W", "error", folder / "run.py"],
@@ -254,14 +257,14 @@ def test_an_infinite_stiffness_at_rupture_passes_through_machine_code(by_machine
     assert (states[2:, State._fields.index("stiffness")] == -math.inf).all()
 
 
-def test_a_step_of_exactly_zero_is_no_division_by_zero():
-    """Newton's method from the very bridge, in plain Python."""
-    from pendular.exact.equations import Held
-    from pendular.exact.guess import guess_at
-    from pendular.exact.newton import newton_to
-    from pendular.exact.solids import solid_of
-
-    solid = solid_of(1.0, 0.3)
-    held = Held(solid, solid, SUCTION, 1.0)
-    z, _ = newton_to(guess_at(held, 0.01), 0.01, held, 14)
-    assert newton_to(z, 0.01, held, 14)[1]
+@pytest.mark.parametrize(("angle", "separation"), [(1.17, 0.59), (0.5, 0.32), (0.65, 0.78)])
+def test_a_step_of_exactly_zero_is_no_error(angle, separation):
+    """Newton's method from the bridge itself, between planes, in plain Python."""
+    held = Held(solid_of(0.0, angle), solid_of(0.0, angle), VOLUME, 1.0)
+    first, is_met = newton_to(guess_at(held, separation), separation, held, 14)
+    assert is_met
+    z = first
+    for _ in range(5):
+        z, is_met = newton_to(z, separation, held, 14)
+        assert is_met
+        np.testing.assert_allclose(z, first, rtol=0.0, atol=1e-14)
