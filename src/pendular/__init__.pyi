@@ -27,6 +27,8 @@ from .liquid import KelvinWarning as KelvinWarning
 from .liquid import Liquid as Liquid
 from .liquid import humidity_from_suction as humidity_from_suction
 from .liquid import suction_from_humidity as suction_from_humidity
+from .packing.heap import Packing as Packing
+from .packing.heap import Wall as Wall
 from .pair import Pair as Pair
 from .problem import ConvergenceWarning as ConvergenceWarning
 from .result import Bridge as Bridge
