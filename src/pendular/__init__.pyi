@@ -29,6 +29,11 @@ from .liquid import humidity_from_suction as humidity_from_suction
 from .liquid import suction_from_humidity as suction_from_humidity
 from .packing.heap import Packing as Packing
 from .packing.heap import Wall as Wall
+from .packing.state import State as State
+from .packing.state import load_state as load_state
+from .packing.wet import PackingWarning as PackingWarning
+from .packing.wet import wet as wet
+from .packing.wetted import Wet as Wet
 from .pair import Pair as Pair
 from .problem import ConvergenceWarning as ConvergenceWarning
 from .result import Bridge as Bridge

@@ -7,7 +7,6 @@ of its own class and of the larger ones, so that a few large grains do not make 
 import math
 from collections.abc import Callable
 from typing import NamedTuple
-from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +14,7 @@ from numpy.typing import NDArray
 from .._jit import in_chunks, kernel
 from .heap import Packing
 
-__all__ = ["Neighbours", "Sizes", "branches_of", "find_neighbours", "sizes_of"]
+__all__ = ["Neighbours", "Reach", "ReachTable", "Sizes", "branches_of", "find_neighbours", "reach_table", "sizes_of"]
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -44,6 +43,23 @@ class Sizes(NamedTuple):
     of_grain: Integers  # class of each grain, 0 for the smallest
     least: Floats  # smallest and largest radius in each
     most: Floats
+
+
+class ReachTable(NamedTuple):
+    """Largest gaps of bridges, between classes of sizes and at walls."""
+
+    sizes: Sizes
+    gaps: Floats  # (classes, classes), [m]
+    at_wall: float  # 0 without walls
+
+    @property
+    def most(self) -> float:
+        """The largest of all."""
+        return max(float(self.gaps.max()), self.at_wall)
+
+    def covers(self, other: "ReachTable") -> bool:
+        """Whether no gap of another one is larger."""
+        return bool(np.all(self.gaps >= other.gaps)) and self.at_wall >= other.at_wall
 
 
 class Frame(NamedTuple):
@@ -80,15 +96,35 @@ def sizes_of(radii: Floats) -> Sizes:
     return Sizes(of_grain.astype(np.int64), least, most)
 
 
-def find_neighbours(heap: Packing, reach: Reach) -> Neighbours:
-    """All pairs within the reach of their classes.
+def reach_table(heap: Packing, reach: Reach) -> ReachTable:
+    """Reach of bridges in a heap.
 
     Parameters
     ----------
     heap : Packing
         The grains.
     reach : callable
-        Largest gap of a bridge, [m], at arrays of two radii, [m].
+        Largest gap of a bridge, [m], at arrays of two radii, [m]; it does not fall with either.
+
+    Returns
+    -------
+    ReachTable
+    """
+    sizes = sizes_of(heap.radii)
+    gaps = np.asarray(reach(*np.meshgrid(sizes.most, sizes.most, indexing="ij")))
+    at_wall = float(np.max(reach(sizes.most, np.full(len(sizes.most), np.inf)))) if heap.walls else 0.0
+    return ReachTable(sizes, gaps, at_wall)
+
+
+def find_neighbours(heap: Packing, reach: ReachTable) -> Neighbours:
+    """All pairs within the reach of their classes.
+
+    Parameters
+    ----------
+    heap : Packing
+        The grains.
+    reach : ReachTable
+        Largest gaps.
 
     Returns
     -------
@@ -99,10 +135,8 @@ def find_neighbours(heap: Packing, reach: Reach) -> Neighbours:
     ValueError
         Where the cell is smaller than twice the reach, so that two images of a grain could be partners of one.
     """
-    sizes = sizes_of(heap.radii)
-    first, second = np.meshgrid(sizes.most, sizes.most, indexing="ij")
-    gaps = np.asarray(reach(first, second))
-    distances = first + second + gaps
+    sizes, gaps = reach.sizes, reach.gaps
+    distances = sizes.most[:, None] + sizes.most + gaps
     frame = _frame_of(heap)
     _refuse_small_cell(frame, float(distances.max()))
     members = [np.flatnonzero(sizes.of_grain == k) for k in range(len(sizes.most))]
@@ -112,7 +146,7 @@ def find_neighbours(heap: Packing, reach: Reach) -> Neighbours:
         for a in range(b + 1):
             own = bins.grains if a == b else members[a]
             found.append(_pairs_of(frame, heap.radii, own, bins, a == b, float(gaps[a, b])))
-    found.extend(_at_wall(heap, k, reach) for k in range(len(heap.walls)))
+    found.extend(_at_wall(heap, k, reach.at_wall) for k in range(len(heap.walls)))
     pairs, image, gap = (np.concatenate(parts) for parts in zip(*found, strict=True))
     order = np.argsort(pairs[:, 0].astype(np.int64) * (heap.count + len(heap.walls)) + pairs[:, 1])
     return Neighbours(pairs[order], image[order], gap[order])
@@ -169,7 +203,12 @@ def _frame_of(heap: Packing) -> Frame:
     width = span / np.linalg.norm(inverse, axis=0)
     positions = heap.positions - wraps @ cell
     return Frame(
-        np.ascontiguousarray(positions), (fractions - wraps - low) / span, wraps.astype(np.int64), cell, width, heap.periodic
+        np.ascontiguousarray(positions),
+        (fractions - wraps - low) / span,
+        wraps.astype(np.int64),
+        cell,
+        width,
+        heap.periodic,
     )
 
 
@@ -177,8 +216,8 @@ def _refuse_small_cell(frame: Frame, distance: float) -> None:
     for k in np.flatnonzero(frame.periodic):
         if frame.width[k] < 2.0 * distance:
             raise ValueError(
-                f"cell: its width of {frame.width[k]:.6g} m along direction {k} is less than twice the reach of a bridge "
-                f"between centres, {2.0 * distance:.6g} m; put several cells side by side with Packing.repeated"
+                f"cell: its width of {frame.width[k]:.6g} m along direction {k} is less than twice the reach of a "
+                f"bridge between centres, {2.0 * distance:.6g} m; put several side by side with Packing.repeated"
             )
 
 
@@ -279,11 +318,10 @@ def _search_range(
             counts[row] = number
 
 
-def _at_wall(heap: Packing, k: int, reach: Reach) -> tuple[NDArray[np.int32], NDArray[np.int32], Floats]:
+def _at_wall(heap: Packing, k: int, most: float) -> tuple[NDArray[np.int32], NDArray[np.int32], Floats]:
     """Grains near a wall."""
     wall = heap.walls[k]
     gap = (heap.positions - wall.point) @ wall.normal - heap.radii
-    most = float(np.max(reach(np.array([heap.radii.max()]), np.array([np.inf]))))
     near = np.flatnonzero(gap <= most)
     pairs = np.column_stack([near, np.full(len(near), heap.count + k)]).astype(np.int32)
     return pairs, np.zeros((len(near), 3), np.int32), gap[near]

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from .._jit import element, kernel
 
-__all__ = ["COLUMNS", "LEAST_SUCTION", "Cap", "cap_at", "moments_of", "shape_range"]
+__all__ = ["COLUMNS", "LEAST_SUCTION", "Cap", "cap_at", "cap_of", "moments_of", "plane_cap", "shape_range"]
 
 Floats = NDArray[np.float64]
 
@@ -52,8 +52,7 @@ def cap_at(force: float, curvature: float, radius: float, angle: float) -> Cap:
     if math.isinf(radius):
         # λ = (H/2) r² + r sin θ
         circle = 2.0 * force / (sine + math.sqrt(sine * sine + 2.0 * curvature * force))
-        moment = -math.pi * circle * circle * math.cos(angle)
-        return Cap(0.0, circle, math.pi * circle * circle, 0.0, moment)
+        return plane_cap(math.pi * circle * circle, angle)
     along = 0.5 * curvature * radius + math.cos(angle)
     size = math.hypot(along, sine)
     share = force / (radius * size)
@@ -61,6 +60,12 @@ def cap_at(force: float, curvature: float, radius: float, angle: float) -> Cap:
     root = math.sqrt(max(sine_psi * sine_psi + 4.0 * share * (cosine_psi - share), 0.0))
     filling = math.atan2(2.0 * share, sine_psi + root)
     return cap_of(filling, curvature, radius, angle)
+
+
+@kernel
+def plane_cap(area: float, angle: float) -> Cap:
+    """Disc that a bridge wets of a plane."""
+    return Cap(0.0, math.sqrt(area / math.pi), area, 0.0, -area * math.cos(angle))
 
 
 @kernel
