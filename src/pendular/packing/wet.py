@@ -143,6 +143,7 @@ def wet(
     one_of("rule", rule, RULES)
     density = None if grain_density is None else _positive("grain_density", grain_density, "kg/m**3")
     before = _start_of(setting, path, start)
+    pore_volume_of(heap, solid_volume_at(heap))
     given = dict(
         zip(
             _CONTROLS,
