@@ -109,11 +109,11 @@ def test_bridges_meet_from_the_limit_on(heap, degrees, limit, saturation):
 def test_second_neighbours_hold_bridges_on_drying_alone():
     heap = body_centred()
     gap = 4 / math.sqrt(3) - 2
-    reach = pl.rupture(pl.Pair(1.0), suction=[0.8, 10.0], liquid=UNIT).separation
+    reach = pl.rupture(pl.Pair(1.0), suction=[0.5, 10.0], liquid=UNIT).separation
     assert reach[0] > gap > reach[1]
-    assert pl.wet(heap, 0.0, suction=0.8, liquid=UNIT).coordination == 14
+    assert pl.wet(heap, 0.0, suction=0.5, liquid=UNIT).coordination == 14
     assert pl.wet(heap, 0.0, suction=10.0, liquid=UNIT).coordination == 8
-    dry = pl.wet(heap, 0.0, suction=0.8, liquid=UNIT, path="wetting", condensation=False)
+    dry = pl.wet(heap, 0.0, suction=0.5, liquid=UNIT, path="wetting", condensation=False)
     assert dry.coordination == 8
 
 

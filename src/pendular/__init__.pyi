@@ -29,6 +29,8 @@ from .liquid import humidity_from_suction as humidity_from_suction
 from .liquid import suction_from_humidity as suction_from_humidity
 from .packing.heap import Packing as Packing
 from .packing.heap import Wall as Wall
+from .packing.limit import pendular_limit as pendular_limit
+from .packing.retention import retention as retention
 from .packing.state import State as State
 from .packing.state import load_state as load_state
 from .packing.wet import PackingWarning as PackingWarning

@@ -13,7 +13,7 @@ from .setting import Setting, reach_at
 from .shape import POTENTIAL
 from .solids import check_overlaps, solid_volume_of
 
-__all__ = ["Pairs", "Step", "members_of", "pairs_at", "solid_volume_at", "step_at"]
+__all__ = ["Pairs", "Step", "members_of", "pairs_at", "reach_of", "solid_volume_at", "step_at"]
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -59,6 +59,11 @@ def pairs_at(setting: Setting, control: str, value: float) -> Pairs:
         near = near.taken(near.gap <= asked.most)
     ends = ends_of(setting, near.pairs, near.gap)
     return Pairs(near, ends, setting.touching(near.gap, ends.radius1, ends.radius2))
+
+
+def reach_of(setting: Setting, suction: float) -> float:
+    """Largest gap of a bridge in the heap at a suction, [m]."""
+    return reach_table(setting.heap, reach_at(setting, "suction", suction)).most
 
 
 def solid_volume_at(heap: Packing) -> float:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from .._jit import in_chunks, kernel
 
-__all__ = ["Meetings", "meetings_of"]
+__all__ = ["Meetings", "mark_meetings", "meetings_of"]
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -46,12 +46,20 @@ def meetings_of(grains: int, pairs: NDArray[np.int32], normals: Floats, filling:
     """
     if not len(pairs) or not grains:
         return Meetings(0.0, 0.0, 0)
+    count, meets = mark_meetings(grains, pairs, normals, filling)
+    share = float(np.sum(volume[meets]) / np.sum(volume))
+    return Meetings(float(np.count_nonzero(count)) / grains, share, int(np.sum(count)))
+
+
+def mark_meetings(
+    grains: int, pairs: NDArray[np.int32], normals: Floats, filling: Floats
+) -> tuple[Integers, NDArray[np.bool_]]:
+    """Meetings on each grain, and whether a bridge is in one."""
     first, order = _ends_by_grain(pairs, grains)
     count = np.zeros(grains, np.int64)
     meets = np.zeros(len(pairs), bool)
     in_chunks(_meeting_range, grains, _CHUNK, first, order, normals, filling, count, meets)
-    share = float(np.sum(volume[meets]) / np.sum(volume))
-    return Meetings(float(np.count_nonzero(count)) / grains, share, int(np.sum(count)))
+    return count, meets
 
 
 @kernel

@@ -29,6 +29,7 @@ Path = Literal["drying", "wetting"]
 
 _AMOUNTS = ("saturation", "water_content", "mass_ratio", "mass_fraction", "liquid_volume")
 _CONTROLS = ("suction", "humidity", *_AMOUNTS, "volume")
+NOT_CHECKED = TableError(0, math.nan, math.nan, math.nan, math.nan)
 _SAMPLE = 400  # bridges on which the error of a table is found
 
 
@@ -162,7 +163,9 @@ def wet(
     return wetted_of(setting, outcome, before, density)
 
 
-def wetted_of(setting: Setting, outcome: Outcome, before: State | bool, density: float | None) -> Wet:
+def wetted_of(
+    setting: Setting, outcome: Outcome, before: State | bool, density: float | None, is_checked: bool = True
+) -> Wet:
     """The answer, from the pairs that hold a bridge."""
     bridges = bridges_of(setting, outcome.pairs, outcome.answers)
     had = before.liquid_volume if isinstance(before, State) else 0.0
@@ -174,7 +177,7 @@ def wetted_of(setting: Setting, outcome: Outcome, before: State | bool, density:
         outcome.suction,
         solid_volume_at(setting.heap),
         density,
-        _table_error(setting, outcome),
+        _table_error(setting, outcome) if is_checked else NOT_CHECKED,
         setting,
         outcome.pairs.ends,
     )
