@@ -8,7 +8,7 @@ import pytest
 
 import pendular as pl
 from pendular.packing.history import pairs_at
-from pendular.packing.neighbours import branches_of, find_neighbours, reach_table
+from pendular.packing.neighbours import arms_of, find_neighbours, reach_table
 from pendular.packing.setting import setting_of
 
 UNIT = pl.Liquid(surface_tension=1.0)
@@ -42,9 +42,7 @@ def loose(count=200, seed=SEED, spread=2.0, density=0.45, cell=None):
     for _ in range(400):
         heap = pl.Packing(places, radii, cell=cell)
         near = find_neighbours(heap, reach_table(heap, lambda first, second: 0.0 * first))
-        branch = branches_of(heap, near)
-        length = np.linalg.norm(branch, axis=1, keepdims=True)
-        push = 0.25 * np.minimum(near.gap, 0.0)[:, None] * branch / length
+        push = 0.25 * np.minimum(near.gap, 0.0)[:, None] * arms_of(heap, near)[0]
         np.add.at(places, near.pairs[:, 0], push)
         np.add.at(places, near.pairs[:, 1], -push)
     near = find_neighbours(heap, reach_table(heap, lambda first, second: 0.0 * first))
@@ -469,6 +467,6 @@ def test_a_search_serves_narrower_ones():
     narrow = pairs_at(setting, "suction", 10.0)
     fresh = pl.Packing(heap.positions, heap.radii, cell=heap.cell)
     again = pairs_at(setting_of(fresh, 0.3, UNIT, 0.0, True, "auto"), "suction", 10.0)
-    assert len(wide.near.gap) > len(narrow.near.gap) >= len(again.near.gap)
-    limit = again.near.gap.max()
-    assert np.count_nonzero(narrow.near.gap <= limit) == len(again.near.gap)
+    assert len(wide.gap) > len(narrow.gap) >= len(again.gap)
+    limit = again.gap.max()
+    assert np.count_nonzero(narrow.gap <= limit) == len(again.gap)

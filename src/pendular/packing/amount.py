@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from .answers import Answers, answers_at
-from .history import Pairs, Step, members_of, pairs_at
+from .history import Step, members_of, pairs_at
+from .neighbours import Neighbours
 from .setting import Setting
 from .state import State, standing_of
 
@@ -27,7 +28,7 @@ _TOLERANCE = 9e-16
 class Equilibrium(NamedTuple):
     """Pairs that hold the liquid, at their common suction."""
 
-    pairs: Pairs
+    pairs: Neighbours
     step: Step
     suction: float  # [Pa]
     unheld: float  # what no suction holds, [m³]
@@ -78,20 +79,20 @@ def equilibrium_of(setting: Setting, amount: float, start: State | bool) -> Equi
     return _between(setting, pairs, before, amount, low, high)
 
 
-def _before(start: State | bool, pairs: Pairs) -> Bools:
+def _before(start: State | bool, pairs: Neighbours) -> Bools:
     if isinstance(start, State):
-        return standing_of(start, pairs.near).has
-    return np.full(len(pairs.near.gap), start)
+        return standing_of(start, pairs).has
+    return np.full(len(pairs.gap), start)
 
 
-def _held(setting: Setting, pairs: Pairs, before: Bools, log_suction: float) -> tuple[float, Step]:
+def _held(setting: Setting, pairs: Neighbours, before: Bools, log_suction: float) -> tuple[float, Step]:
     """Liquid in the bridges at a suction that was approached without a detour."""
-    answers = answers_at(setting, pairs.ends, "suction", np.array([math.exp(log_suction)]))
+    answers = answers_at(setting, pairs, "suction", np.array([math.exp(log_suction)]))
     members = members_of(setting, pairs, answers, before)
     return float(np.sum(answers.volume[members])), Step(answers, members)
 
 
-def _between(setting: Setting, pairs: Pairs, before: Bools, amount: float, low: float, high: float) -> Equilibrium:
+def _between(setting: Setting, pairs: Neighbours, before: Bools, amount: float, low: float, high: float) -> Equilibrium:
     """Equilibrium between two suctions, at which the bridges hold more and less than the amount."""
     place = brentq(
         lambda at: _held(setting, pairs, before, at)[0] / amount - 1.0, low, high, xtol=1e-13, rtol=_TOLERANCE
@@ -106,12 +107,12 @@ def _between(setting: Setting, pairs: Pairs, before: Bools, amount: float, low: 
     raise ArithmeticError(f"no suction was found at which bridges hold {amount:.6g} m^3")
 
 
-def _of_set(setting: Setting, pairs: Pairs, members: Bools, amount: float, place: float) -> Equilibrium | None:
+def _of_set(setting: Setting, pairs: Neighbours, members: Bools, amount: float, place: float) -> Equilibrium | None:
     """Suction at which given bridges hold an amount, near a place; none where one of them breaks before."""
     few = pairs.taken(members)
 
     def answers_of(at: float) -> Answers:
-        return answers_at(setting, few.ends, "suction", np.array([math.exp(at)]))
+        return answers_at(setting, few, "suction", np.array([math.exp(at)]))
 
     def excess(at: float) -> float:
         found = answers_of(at)

@@ -1,4 +1,7 @@
-"""What is known of many pairs at once: exactly, or from tables."""
+"""What is known of many pairs at once: exactly, or from tables.
+
+Force, volume and potential are found for all pairs, the whole geometry for those that hold a bridge.
+"""
 
 import math
 from functools import lru_cache
@@ -7,17 +10,21 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .._jit import in_chunks
-from ..bridges import bridge
+from .._jit import element, in_chunks, kernel
+from ..bridges import Bridge, bridge
 from ..pair import Pair
 from ..table import Table, tabulate
+from ..table.kernels import Grid, cell_of, find, gap_of, liquid_unit, q_of
+from ..table.polynomial import CELL, in_three
+from .neighbours import Neighbours
 from .setting import Setting
-from .shape import AREA, COLUMNS, LEAST_SUCTION, POTENTIAL, shape_range
+from .shape import COLUMNS, LEAST_SUCTION, potential_of, shape_range
 
-__all__ = ["Answers", "Ends", "answers_at", "ends_of", "uses_table"]
+__all__ = ["Answers", "answers_at", "geometry_of", "uses_table"]
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
+Rows = NDArray[np.intp]
 ControlName = Literal["suction", "volume"]
 
 _CHUNK = 65536
@@ -28,47 +35,34 @@ _USUAL = {"suction": (1.0, 256.0), "volume": (2.0**-24, 2.0**-8)}  # reduced con
 _LIMITS = {"suction": (1e-2, 1e8), "volume": (1e-9, 1.0)}
 _RATIOS = (1.0, 1.25, 2.0, 4.0, 16.0, math.inf)  # of radii, up to which a table goes
 _EQUAL = 1.0 + 1e-12
-_SWAPPED = [0, 2, 1, 4, 3, 5, 6, 7]  # columns of a shape with its solids exchanged
-
-
-class Ends(NamedTuple):
-    """Two bodies a row, and the gap between them."""
-
-    gap: Floats  # [m], negative in an overlap
-    radius1: Floats
-    radius2: Floats
-    kind1: NDArray[np.int32]
-    kind2: NDArray[np.int32]
-
-    def taken(self, chosen: NDArray[np.intp] | Bools) -> "Ends":
-        """Some of the rows."""
-        gap, radius1, radius2 = (part[chosen] for part in self[:3])
-        return Ends(gap, radius1, radius2, self.kind1[chosen], self.kind2[chosen])
 
 
 class Answers(NamedTuple):
-    """Bridges between the bodies: the force is 0 and all else NaN where there is none."""
+    """Bridges between the bodies of pairs: the force is 0 and all else NaN where there is none."""
 
-    force: Floats  # [N]
-    volume: Floats  # [m³]
-    suction: Floats  # [Pa]
-    shape: Floats  # (n, 8), columns of `shape`
+    control: ControlName  # what was held
+    force: Floats  # (n,), [N]
+    volume: Floats  # (n,), [m³]
+    suction: Floats  # (n,), or (1,) for all, [Pa]
+    potential: Floats  # (n,), grand potential; in an overlap it goes on with the force of contact, [J]
+    shape: Floats | None  # (n, 7), columns of `shape`, if they are known already
 
     @property
     def exists(self) -> Bools:
         """Whether there is a bridge."""
         return np.asarray(self.force != 0.0)
 
-    def taken(self, chosen: NDArray[np.intp] | Bools) -> "Answers":
+    def taken(self, chosen: Rows | Bools) -> "Answers":
         """Some of the rows."""
-        return Answers(*(part[chosen] for part in self))
-
-
-def ends_of(setting: Setting, pairs: NDArray[np.int32], gap: Floats) -> Ends:
-    """Bodies of pairs."""
-    radii = setting.radii
-    first, second = pairs.T
-    return Ends(gap, radii[first], radii[second], setting.kind[first], setting.kind[second])
+        rows = np.flatnonzero(chosen) if chosen.dtype == np.bool_ else chosen
+        return Answers(
+            self.control,
+            self.force[rows],
+            self.volume[rows],
+            self.suction if self.suction.size == 1 else self.suction[rows],
+            self.potential[rows],
+            None if self.shape is None else self.shape[rows],
+        )
 
 
 def uses_table(setting: Setting, rows: int) -> bool:
@@ -79,14 +73,14 @@ def uses_table(setting: Setting, rows: int) -> bool:
     )
 
 
-def answers_at(setting: Setting, ends: Ends, control: ControlName, values: Floats) -> Answers:
+def answers_at(setting: Setting, near: Neighbours, control: ControlName, values: Floats) -> Answers:
     """Bridges at a suction or of a volume each; grains that overlap count as touching.
 
     Parameters
     ----------
     setting : Setting
         Liquid, angles, method.
-    ends : Ends
+    near : Neighbours
         The pairs.
     control : {"suction", "volume"}
         What is held.
@@ -97,90 +91,149 @@ def answers_at(setting: Setting, ends: Ends, control: ControlName, values: Float
     -------
     Answers
     """
-    rows = len(ends.gap)
-    found = Answers(np.zeros(rows), np.full(rows, np.nan), np.full(rows, np.nan), np.full((rows, COLUMNS), np.nan))
-    if rows == 0:
-        return found
-    by_table = np.zeros(rows, bool)
-    if uses_table(setting, rows):
-        by_table = _from_tables(setting, ends, control, values, found)
-    rest = np.flatnonzero(~by_table)
-    for start in range(0, len(rest), _CHUNK):
-        _exactly(setting, ends, control, values, rest[start : start + _CHUNK], found)
-    overlap = np.minimum(ends.gap, 0.0)
-    found.shape[:, POTENTIAL] += found.force * overlap  # so that the force is its rate
+    rows = len(near.gap)
+    if rows == 0 or not uses_table(setting, rows):
+        return _exactly(setting, near, control, values)
+    found = Answers(control, np.empty(rows), np.empty(rows), np.empty(rows), np.empty(rows), None)
+    rest = _from_tables(setting, near, control, values, found)
+    if rest.size:
+        few = _exactly(setting, near.taken(rest), control, values if values.size == 1 else values[rest])
+        found.force[rest], found.volume[rest], found.potential[rest] = few.force, few.volume, few.potential
+        found.suction[rest] = few.suction
+    if control == "suction" and values.size == 1:
+        return found._replace(suction=values)
     return found
 
 
-def _exactly(
-    setting: Setting, ends: Ends, control: ControlName, values: Floats, rows: NDArray[np.intp], found: Answers
-) -> None:
-    """Fill rows by the exact solver."""
-    part = ends.taken(rows)
-    pair = Pair((part.radius1, part.radius2), (setting.angles[part.kind1], setting.angles[part.kind2]))
-    held = values if values.size == 1 else values[rows]
-    suction, volume = (held, None) if control == "suction" else (None, held)
-    b = bridge(pair, np.maximum(part.gap, 0.0), suction=suction, volume=volume, liquid=setting.liquid)
-    found.force[rows], found.volume[rows], found.suction[rows] = b.force, b.volume, b.suction
-    found.shape[rows, AREA], found.shape[rows, POTENTIAL] = b.liquid_gas_area, b.grand_potential
-    found.shape[rows, 1:3], found.shape[rows, 3:5], found.shape[rows, 5:7] = (
-        b.half_filling_angle,
-        b.wetted_area,
-        b.capillary_tensor,
-    )
+def geometry_of(setting: Setting, near: Neighbours, answers: Answers) -> Floats:
+    """Columns of `shape` for pairs that hold a bridge, (n, 7)."""
+    if answers.shape is not None:
+        return answers.shape
+    out = np.empty((len(near.gap), COLUMNS))
+    in_chunks(
+        shape_range, len(out), _CHUNK,
+        near.pairs, near.gap, setting.radii, setting.kind, setting.angles, answers.suction, answers.force,
+        answers.volume, setting.liquid.surface_tension, out,
+    )  # fmt: skip
+    unsure = np.flatnonzero(~_is_sure(setting, near, answers.suction))
+    if unsure.size:
+        held = answers.suction if answers.control == "suction" else answers.volume
+        few = _exactly(setting, near.taken(unsure), answers.control, held if held.size == 1 else held[unsure])
+        out[unsure] = few.shape
+    return out
 
 
-def _from_tables(setting: Setting, ends: Ends, control: ControlName, values: Floats, found: Answers) -> Bools:
-    """Fill what tables cover, and tell which rows these are."""
-    small = np.minimum(ends.radius1, ends.radius2)
-    large = np.maximum(ends.radius1, ends.radius2)
-    derjaguin = 2.0 / (1.0 / small + 1.0 / large)
-    tension = setting.liquid.surface_tension
-    reduced = values * derjaguin / tension if control == "suction" else values / derjaguin**3
+def _is_sure(setting: Setting, near: Neighbours, suction: Floats) -> Bools:
+    """Whether the force tells the half-filling angles."""
+    least = LEAST_SUCTION * setting.liquid.surface_tension
+    if float(suction.min(initial=math.inf)) * float(setting.heap.radii.min()) >= least:
+        return np.ones(len(near.gap), bool)
+    return np.asarray(suction * _radii(setting, near).min(axis=1) >= least)
+
+
+def _radii(setting: Setting, near: Neighbours) -> Floats:
+    return np.asarray(setting.radii[near.pairs])
+
+
+def _exactly(setting: Setting, near: Neighbours, control: ControlName, values: Floats) -> Answers:
+    """Answers of the exact solver."""
+    rows = len(near.gap)
+    force, volume, suction, potential = np.empty((4, rows))
+    shape = np.empty((rows, COLUMNS))
+    for start in range(0, rows, _CHUNK):
+        part = slice(start, start + _CHUNK)
+        radii, kinds = setting.radii[near.pairs[part]], setting.kind[near.pairs[part]]
+        pair = Pair((radii[:, 0], radii[:, 1]), (setting.angles[kinds[:, 0]], setting.angles[kinds[:, 1]]))
+        held = values if values.size == 1 else values[part]
+        under, of = (held, None) if control == "suction" else (None, held)
+        b = bridge(pair, np.maximum(near.gap[part], 0.0), suction=under, volume=of, liquid=setting.liquid)
+        force[part], volume[part], suction[part], shape[part] = b.force, b.volume, b.suction, _columns_of(b)
+        potential[part] = b.grand_potential + b.force * np.minimum(near.gap[part], 0.0)
+    return Answers(control, force, volume, suction, potential, shape)
+
+
+def _columns_of(b: Bridge) -> Floats:
+    return np.column_stack([b.liquid_gas_area, b.half_filling_angle, b.wetted_area, b.capillary_tensor])
+
+
+def _from_tables(setting: Setting, near: Neighbours, control: ControlName, values: Floats, found: Answers) -> Rows:
+    """Fill what tables cover, and return the other rows."""
+    heap, tension = setting.heap, setting.liquid.surface_tension
+    small, large = float(heap.radii.min()), float(heap.radii.max())
     low, high = _LIMITS[control]
+    everywhere = np.empty(0, np.intp)
+    if control == "suction" and values.size == 1 and len(setting.angles) == 1 and not heap.walls:
+        span = float(values[0]) * small / tension, float(values[0]) * large / tension
+        if span[0] >= max(LEAST_SUCTION, low) and span[1] <= high:
+            angle = float(setting.angles[0])
+            _ask(_table_over((angle, angle), control, span, large / small), setting, near, values, everywhere, found)
+            return everywhere
+    radii = _radii(setting, near)
+    smaller, larger = radii.min(axis=1), radii.max(axis=1)
+    derjaguin = 2.0 / (1.0 / smaller + 1.0 / larger)
+    reduced = values * derjaguin / tension if control == "suction" else values / derjaguin**3
     covered = (reduced >= low) & (reduced <= high)
     if control == "suction":
-        covered &= values * small >= LEAST_SUCTION * tension
-    group = np.minimum(ends.kind1, ends.kind2) * len(setting.angles) + np.maximum(ends.kind1, ends.kind2)
-    group = 2 * group + np.isinf(large)
+        covered &= values * smaller >= LEAST_SUCTION * tension
+    kinds = setting.kind[near.pairs].astype(np.int64)
+    group = 2 * (kinds.min(axis=1) * len(setting.angles) + kinds.max(axis=1)) + np.isinf(larger)
     for number in np.unique(group[covered]):
-        chosen = covered & (group == number)
-        rows = np.flatnonzero(chosen)
-        part = ends.taken(rows)
-        ratio = float(np.max(large[rows] / small[rows]))
-        span = float(reduced[rows].min()), float(reduced[rows].max())
-        kinds = divmod(int(number) // 2, len(setting.angles))
-        angles = float(setting.angles[kinds[0]]), float(setting.angles[kinds[1]])
-        table = _table_over(angles, control, span, ratio)
-        held = values if values.size == 1 else values[rows]
-        _ask(table, part, part.kind1 > part.kind2, held, tension, rows, found)
-    if control == "volume":
-        unsure = covered & found.exists & ~(found.suction * small >= LEAST_SUCTION * tension)
-        covered &= ~unsure
-    return covered
+        rows = np.flatnonzero(covered & (group == number))
+        ratio = float(np.max(larger[rows] / smaller[rows]))
+        first, second = divmod(int(number) // 2, len(setting.angles))
+        angles = float(setting.angles[first]), float(setting.angles[second])
+        table = _table_over(angles, control, (float(reduced[rows].min()), float(reduced[rows].max())), ratio)
+        _ask(table, setting, near, values, rows, found)
+    return np.flatnonzero(~covered)
 
 
-def _ask(
-    table: Table, part: Ends, swapped: Bools, held: Floats, tension: float, rows: NDArray[np.intp], found: Answers
+def _ask(table: Table, setting: Setting, near: Neighbours, values: Floats, rows: Rows, found: Answers) -> None:
+    """Fill rows from a table, all of them for an empty list."""
+    in_chunks(
+        _table_range, rows.size or len(near.gap), _CHUNK,
+        table.grid, *table.contact_angle, near.pairs, near.gap, setting.radii, setting.kind, setting.angles, rows,
+        values, setting.liquid.surface_tension, found.force, found.volume, found.suction, found.potential,
+    )  # fmt: skip
+
+
+@kernel
+def _table_range(
+    grid: Grid,
+    angle1: float,
+    angle2: float,
+    pairs: NDArray[np.int32],
+    gaps: Floats,
+    radii: Floats,
+    kind: NDArray[np.int32],
+    angles: Floats,
+    rows: Rows,
+    values: Floats,
+    tension: float,
+    forces: Floats,
+    volumes: Floats,
+    suctions: Floats,
+    potentials: Floats,
+    start: int,
+    stop: int,
 ) -> None:
-    """Fill rows from a table and the geometry that follows."""
-    radius1 = np.where(swapped, part.radius2, part.radius1)
-    radius2 = np.where(swapped, part.radius1, part.radius2)
-    gap = np.maximum(part.gap, 0.0)
-    asked = (gap, held, radius1, radius2, tension)
-    force = table.force(*asked)
-    other = table.volume(*asked) if table.control == "suction" else table.suction(*asked)
-    suction, volume = (held, other) if table.control == "suction" else (other, np.broadcast_to(held, other.shape))
-    exists = force != 0.0
-    shape = np.empty((len(rows), COLUMNS))
-    arrays = tuple(np.ascontiguousarray(each) for each in (gap, suction, force, volume, radius1, radius2))
-    in_chunks(shape_range, len(rows), _CHUNK, *arrays, *table.contact_angle, tension, shape)
-    if swapped.any():
-        shape[swapped] = shape[swapped][:, _SWAPPED]
-    shape[~exists] = np.nan
-    found.force[rows], found.shape[rows] = force, shape
-    found.volume[rows] = np.where(exists, volume, np.nan)
-    found.suction[rows] = np.where(exists, suction, np.nan)
+    """Force, volume, suction and potential of the rows from start to stop."""
+    for number in range(start, stop):
+        row = rows[number] if rows.size else number
+        i, j = pairs[row, 0], pairs[row, 1]
+        if angle1 != angle2 and angles[kind[i]] == angle2:
+            i, j = j, i
+        held = element(values, row)
+        pair, place, rupture = find(grid, held, radii[i], radii[j], tension)
+        forces[row], volumes[row], suctions[row], potentials[row] = 0.0, math.nan, math.nan, math.nan
+        if gap_of(gaps[row]) >= rupture:
+            continue
+        cell, t = cell_of(grid, place, q_of(gaps[row], rupture))
+        force = 2.0 * math.pi * tension * pair.radius * in_three(grid.force, cell * CELL, place.x, place.y, t)
+        unit = liquid_unit(grid, pair.control, pair.radius, tension)
+        other = unit * in_three(grid.liquid, cell * CELL, place.x, place.y, t)
+        volume, suction = (held, other) if grid.is_volume else (other, held)
+        forces[row], volumes[row], suctions[row] = force, volume, suction
+        potentials[row] = potential_of(gaps[row], suction, force, volume, radii[i], radii[j], angle1, angle2, tension)
 
 
 def _table_over(angles: tuple[float, float], control: ControlName, span: tuple[float, float], ratio: float) -> Table:

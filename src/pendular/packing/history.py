@@ -6,29 +6,16 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from .answers import Answers, Ends, answers_at, ends_of
+from .answers import Answers, answers_at
 from .heap import Packing
 from .neighbours import Neighbours, ReachTable, find_neighbours, reach_table
 from .setting import Setting, reach_at
-from .shape import POTENTIAL
 from .solids import check_overlaps, solid_volume_of
 
-__all__ = ["Pairs", "Step", "members_of", "pairs_at", "reach_of", "solid_volume_at", "step_at"]
+__all__ = ["Step", "members_of", "pairs_at", "reach_of", "solid_volume_at", "step_at"]
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
-
-
-class Pairs(NamedTuple):
-    """Pairs within reach of a bridge."""
-
-    near: Neighbours
-    ends: Ends
-    touching: Bools  # near enough for a bridge to form at once
-
-    def taken(self, chosen: Bools) -> "Pairs":
-        """Some of them."""
-        return Pairs(self.near.taken(chosen), self.ends.taken(chosen), self.touching[chosen])
 
 
 class Step(NamedTuple):
@@ -50,15 +37,14 @@ class Search(NamedTuple):
 _SEARCHED: "WeakKeyDictionary[Packing, Search]" = WeakKeyDictionary()
 
 
-def pairs_at(setting: Setting, control: str, value: float) -> Pairs:
+def pairs_at(setting: Setting, control: str, value: float) -> Neighbours:
     """Pairs that are within reach at a suction, [Pa], or of a volume, [m³]."""
     asked = reach_table(setting.heap, reach_at(setting, control, value))
     known = _searched(setting.heap, asked)
     near = known.near
     if asked.most < known.reach.most:
         near = near.taken(near.gap <= asked.most)
-    ends = ends_of(setting, near.pairs, near.gap)
-    return Pairs(near, ends, setting.touching(near.gap, ends.radius1, ends.radius2))
+    return near
 
 
 def reach_of(setting: Setting, suction: float) -> float:
@@ -83,20 +69,22 @@ def _searched(heap: Packing, asked: ReachTable) -> Search:
     return known
 
 
-def members_of(setting: Setting, pairs: Pairs, answers: Answers, before: Bools) -> Bools:
+def members_of(setting: Setting, near: Neighbours, answers: Answers, before: Bools | bool) -> Bools:
     r"""Pairs that hold a bridge now.
 
     A bridge that stood before stands up to its rupture. A new one forms where the bodies touch, and by condensation
     where its grand potential is not above that of the dry bodies, Ω ≤ 0.
     """
-    forms = pairs.touching
+    if before is True:
+        return answers.exists
+    forms = setting.touching(near.gap)
     if setting.condensation:
         with np.errstate(invalid="ignore"):
-            forms = forms | (answers.shape[:, POTENTIAL] <= 0.0)
-    return answers.exists & (before | forms)
+            forms |= answers.potential <= 0.0
+    return answers.exists & (forms | before)
 
 
-def step_at(setting: Setting, pairs: Pairs, suction: float, before: Bools) -> Step:
+def step_at(setting: Setting, near: Neighbours, suction: float, before: Bools | bool) -> Step:
     """All pairs at a suction, from those that held a bridge before."""
-    answers = answers_at(setting, pairs.ends, "suction", np.array([suction]))
-    return Step(answers, members_of(setting, pairs, answers, before))
+    answers = answers_at(setting, near, "suction", np.array([suction]))
+    return Step(answers, members_of(setting, near, answers, before))

@@ -9,10 +9,11 @@ from numpy.typing import ArrayLike, NDArray
 from .._check import one_of
 from ..liquid import Liquid
 from .amount import LEAST_REDUCED_SUCTION
+from .answers import geometry_of
 from .heap import Packing
-from .history import Pairs, pairs_at, step_at
+from .history import pairs_at, step_at
 from .meetings import mark_meetings
-from .neighbours import branches_of
+from .neighbours import Neighbours, arms_of
 from .setting import Setting, setting_of
 from .shape import FILLING_1, FILLING_2
 
@@ -90,13 +91,12 @@ def limit_between(setting: Setting, low: float, high: float, is_drying: bool) ->
     return low
 
 
-def _meeting(setting: Setting, pairs: Pairs, suction: float, is_drying: bool) -> Bools:
+def _meeting(setting: Setting, pairs: Neighbours, suction: float, is_drying: bool) -> Bools:
     """Pairs whose bridges meet others."""
-    step = step_at(setting, pairs, suction, np.full(len(pairs.near.gap), is_drying))
-    held = pairs.taken(step.members)
-    branches = branches_of(setting.heap, held.near)
-    normals = branches / np.sqrt(np.einsum("ij,ij->i", branches, branches))[:, None]
-    filling = step.answers.shape[step.members][:, FILLING_1 : FILLING_2 + 1]
-    meets = np.zeros(len(pairs.near.gap), bool)
-    meets[step.members] = mark_meetings(setting.heap.count, held.near.pairs, normals, filling)[1]
+    step = step_at(setting, pairs, suction, is_drying)
+    held, answers = pairs.taken(step.members), step.answers.taken(step.members)
+    normals, _ = arms_of(setting.heap, held)
+    filling = geometry_of(setting, held, answers)[:, FILLING_1 : FILLING_2 + 1]
+    meets = np.zeros(len(pairs.gap), bool)
+    meets[step.members] = mark_meetings(setting.heap.count, held.pairs, normals, filling)[1]
     return meets

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from .._jit import in_chunks, kernel
 from .heap import Packing
 
-__all__ = ["Neighbours", "Reach", "ReachTable", "Sizes", "branches_of", "find_neighbours", "reach_table", "sizes_of"]
+__all__ = ["Neighbours", "Reach", "ReachTable", "Sizes", "arms_of", "find_neighbours", "reach_table", "sizes_of"]
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -34,7 +34,10 @@ class Neighbours(NamedTuple):
 
     def taken(self, chosen: NDArray[np.bool_] | Integers) -> "Neighbours":
         """Some of the pairs."""
-        return Neighbours(self.pairs[chosen], self.image[chosen], self.gap[chosen])
+        rows = np.flatnonzero(chosen) if chosen.dtype == np.bool_ else chosen
+        if len(rows) == len(self.gap) and chosen.dtype == np.bool_:
+            return self
+        return Neighbours(self.pairs[rows], self.image[rows], self.gap[rows])
 
 
 class Sizes(NamedTuple):
@@ -147,34 +150,35 @@ def find_neighbours(heap: Packing, reach: ReachTable) -> Neighbours:
             own = bins.grains if a == b else members[a]
             found.append(_pairs_of(frame, heap.radii, own, bins, a == b, float(gaps[a, b])))
     found.extend(_at_wall(heap, k, reach.at_wall) for k in range(len(heap.walls)))
-    pairs, image, gap = (np.concatenate(parts) for parts in zip(*found, strict=True))
+    pairs, image, gap = found[0] if len(found) == 1 else (np.concatenate(parts) for parts in zip(*found, strict=True))
     order = np.argsort(pairs[:, 0].astype(np.int64) * (heap.count + len(heap.walls)) + pairs[:, 1])
     return Neighbours(pairs[order], image[order], gap[order])
 
 
-def branches_of(heap: Packing, neighbours: Neighbours) -> Floats:
-    """Vector from the first centre to the second, or to the nearest point of the wall, (n, 3), [m]."""
-    branches = np.empty((len(neighbours.gap), 3))
+def arms_of(heap: Packing, neighbours: Neighbours) -> tuple[Floats, Floats]:
+    """Unit vectors from the first centre to the second, or to the nearest point of the wall, (n, 3), and distances."""
+    normals, lengths = np.empty((len(neighbours.gap), 3)), np.empty(len(neighbours.gap))
     walls = np.array([[*wall.point, *wall.normal] for wall in heap.walls]).reshape(-1, 6)
     in_chunks(
-        _branch_range, len(branches), _CHUNK,
-        heap.positions, heap.box, walls, neighbours.pairs, neighbours.image, branches,
+        _arm_range, len(lengths), _CHUNK,
+        heap.positions, heap.box, walls, neighbours.pairs, neighbours.image, normals, lengths,
     )  # fmt: skip
-    return branches
+    return normals, lengths
 
 
 @kernel
-def _branch_range(
+def _arm_range(
     positions: Floats,
     cell: Floats,
     walls: Floats,
     pairs: NDArray[np.int32],
     image: NDArray[np.int32],
-    branches: Floats,
+    normals: Floats,
+    lengths: Floats,
     start: int,
     stop: int,
 ) -> None:
-    """Branch vectors from start to stop."""
+    """Directions and distances from start to stop."""
     for row in range(start, stop):
         i, j = pairs[row, 0], pairs[row, 1]
         if j < positions.shape[0]:
@@ -182,14 +186,18 @@ def _branch_range(
                 shift = 0.0
                 for m in range(3):
                     shift += image[row, m] * cell[m, k]
-                branches[row, k] = positions[j, k] - positions[i, k] + shift
+                normals[row, k] = positions[j, k] - positions[i, k] + shift
         else:
             wall = walls[j - positions.shape[0]]
             height = 0.0
             for k in range(3):
                 height += (positions[i, k] - wall[k]) * wall[3 + k]
             for k in range(3):
-                branches[row, k] = -height * wall[3 + k]
+                normals[row, k] = -height * wall[3 + k]
+        length = math.sqrt(normals[row, 0] ** 2 + normals[row, 1] ** 2 + normals[row, 2] ** 2)
+        lengths[row] = length
+        for k in range(3):
+            normals[row, k] /= length
 
 
 def _frame_of(heap: Packing) -> Frame:

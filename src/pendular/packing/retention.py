@@ -10,10 +10,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from .._check import in_range, quantity
 from ..liquid import Liquid
-from .answers import answers_at
+from .answers import Answers, answers_at
 from .heap import Packing
-from .history import Pairs, members_of, pairs_at, reach_of
+from .history import members_of, pairs_at, reach_of
 from .limit import limit_between
+from .neighbours import Neighbours
 from .setting import Setting, setting_of
 from .wet import Outcome, wetted_of
 from .wetted import Wet
@@ -168,7 +169,7 @@ class _Follower:
     """
 
     def __init__(
-        self, setting: Setting, pairs: Pairs, suctions: Floats, turns: Floats, progress: Progress | None
+        self, setting: Setting, pairs: Neighbours, suctions: Floats, turns: Floats, progress: Progress | None
     ) -> None:
         self.setting, self.pairs, self.suctions, self.progress = setting, pairs, suctions, progress
         self.walks = [
@@ -185,7 +186,7 @@ class _Follower:
         self.porosity = np.nan
 
     def all(self) -> tuple[Walk, ...]:
-        count = len(self.pairs.near.gap)
+        count = len(self.pairs.gap)
         everything, nothing = np.ones(count, bool), np.zeros(count, bool)
         members = {walk.name: self._turn(walk) for walk in self.turned}
         rising = [walk for walk in self.turned if not walk.starts_wet]
@@ -203,15 +204,15 @@ class _Follower:
 
     def _turn(self, walk: Walk) -> Bools:
         """Pairs that hold a bridge where a path leaves its main branch."""
-        chosen, members = self._members_at(walk.turns_at, np.full(len(self.pairs.near.gap), walk.starts_wet))[:2]
+        chosen, members = self._members_at(walk.turns_at, np.full(len(self.pairs.gap), walk.starts_wet))[:2]
         full = np.zeros(len(chosen), bool)
         full[chosen] = members
         return full
 
-    def _members_at(self, suction: float, before: Bools) -> tuple[Bools, Bools, Any, Pairs]:
-        chosen = self.pairs.near.gap <= reach_of(self.setting, suction)
+    def _members_at(self, suction: float, before: Bools) -> tuple[Bools, Bools, Answers, Neighbours]:
+        chosen = self.pairs.gap <= reach_of(self.setting, suction)
         near = self.pairs.taken(chosen)
-        answers = answers_at(self.setting, near.ends, "suction", np.array([suction]))
+        answers = answers_at(self.setting, near, "suction", np.array([suction]))
         return chosen, members_of(self.setting, near, answers, before[chosen]), answers, near
 
     def _visit(self, k: int, walks: Sequence[Walk], members: dict[str, Bools]) -> None:

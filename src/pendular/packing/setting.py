@@ -18,7 +18,7 @@ Floats = NDArray[np.float64]
 
 METHODS = ("auto", "exact", "table")
 _MARGIN = 1.05  # of the reach, over rupture distances at the ends of the ranges of radii and angles
-_TOUCHING = 1e-9  # of the sum of two radii: rounding of positions
+_TOUCHING = 1e-9  # of the smallest radius: rounding of positions
 
 
 class Setting(NamedTuple):
@@ -31,16 +31,11 @@ class Setting(NamedTuple):
     formation_distance: float  # [m]
     condensation: bool
     method: str
+    radii: Floats  # of grains, then of walls, [m]
 
-    @property
-    def radii(self) -> Floats:
-        """Of grains, then of walls, [m]."""
-        return np.concatenate([self.heap.radii, np.full(len(self.heap.walls), np.inf)])
-
-    def touching(self, gap: Floats, radius1: Floats, radius2: Floats) -> NDArray[np.bool_]:
+    def touching(self, gap: Floats) -> NDArray[np.bool_]:
         """Whether a gap is small enough for a bridge to form at once."""
-        smaller = np.minimum(radius1, radius2)
-        return np.asarray(gap <= self.formation_distance + _TOUCHING * smaller)
+        return np.asarray(gap <= self.formation_distance + _TOUCHING * float(self.heap.radii.min()))
 
 
 def setting_of(
@@ -67,7 +62,8 @@ def setting_of(
             f"{heap.count} grains{walls}"
         )
     angles, kind = np.unique(np.broadcast_to(given, (bodies,)), return_inverse=True)
-    return Setting(heap, liquid, angles, kind.astype(np.int32), film, bool(condensation), method)
+    radii = np.concatenate([heap.radii, np.full(len(heap.walls), np.inf)]) if heap.walls else heap.radii
+    return Setting(heap, liquid, angles, kind.astype(np.int32), film, bool(condensation), method, radii)
 
 
 def reach_at(setting: Setting, control: str, value: float) -> Reach:

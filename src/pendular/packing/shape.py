@@ -22,13 +22,13 @@ from numpy.typing import NDArray
 
 from .._jit import element, kernel
 
-__all__ = ["COLUMNS", "LEAST_SUCTION", "Cap", "cap_at", "cap_of", "moments_of", "plane_cap", "shape_range"]
+__all__ = ["COLUMNS", "LEAST_SUCTION", "Cap", "cap_of", "moments_of", "plane_cap", "potential_of", "shape_range"]
 
 Floats = NDArray[np.float64]
 
 # Columns of the geometry of a bridge.
-AREA, FILLING_1, FILLING_2, WETTED_1, WETTED_2, ACROSS, AXIAL, POTENTIAL = range(8)
-COLUMNS = 8
+AREA, FILLING_1, FILLING_2, WETTED_1, WETTED_2, ACROSS, AXIAL = range(7)
+COLUMNS = 7
 
 # ΔpR/γ of the smaller solid. Below 0.386 a grain beside a much larger one may be more than half immersed, where two
 # half-filling angles give the same force.
@@ -90,35 +90,60 @@ def moments_of(first: Cap, second: Cap) -> tuple[float, float]:
 
 
 @kernel
+def meniscus_of(
+    gap: float, curvature: float, pull: float, volume: float, first: Cap, second: Cap
+) -> tuple[float, float]:
+    """Capillary tensor of the meniscus, across the axis and along it, from F/γ and the caps."""
+    axial, across = moments_of(first, second)
+    liquid = curvature * volume
+    n11 = 0.5 * (pull * gap - liquid - axial)
+    return n11, -liquid - across - n11
+
+
+@kernel
+def potential_of(
+    gap: float,
+    suction: float,
+    force: float,
+    volume: float,
+    radius1: float,
+    radius2: float,
+    angle1: float,
+    angle2: float,
+    tension: float,
+) -> float:
+    """Grand potential; in an overlap it goes on with the force of contact, so that this is its rate."""
+    curvature, pull = suction / tension, force / tension
+    first = cap_at(0.5 * pull / math.pi, curvature, radius1, angle1)
+    second = cap_at(0.5 * pull / math.pi, curvature, radius2, angle2)
+    n11, n33 = meniscus_of(max(gap, 0.0), curvature, pull, volume, first, second)
+    wetted = math.cos(angle1) * first.area + math.cos(angle2) * second.area
+    return tension * (2.0 * n11 + n33 - wetted + curvature * volume + pull * min(gap, 0.0))
+
+
+@kernel
 def shape_range(
+    pairs: NDArray[np.int32],
     gaps: Floats,
+    radii: Floats,
+    kind: NDArray[np.int32],
+    angles: Floats,
     suctions: Floats,
     forces: Floats,
     volumes: Floats,
-    radii1: Floats,
-    radii2: Floats,
-    angle1: float,
-    angle2: float,
     tension: float,
     out: Floats,
     start: int,
     stop: int,
 ) -> None:
     """Geometry of the bridges from start to stop."""
-    for i in range(start, stop):
-        curvature = element(suctions, i) / tension
-        force = forces[i] / (2.0 * math.pi * tension)
-        first = cap_at(force, curvature, radii1[i], angle1)
-        second = cap_at(force, curvature, radii2[i], angle2)
-        axial, across = moments_of(first, second)
-        liquid = curvature * volumes[i]
-        ends = forces[i] * gaps[i] / tension
-        n11 = 0.5 * (ends - liquid - axial)
-        n33 = -liquid - across - n11
-        area = 2.0 * n11 + n33
-        out[i, AREA] = area
-        out[i, FILLING_1], out[i, FILLING_2] = first.filling, second.filling
-        out[i, WETTED_1], out[i, WETTED_2] = first.area, second.area
-        out[i, ACROSS], out[i, AXIAL] = n11, n33
-        energy = area - math.cos(angle1) * first.area - math.cos(angle2) * second.area
-        out[i, POTENTIAL] = tension * (energy + liquid)
+    for row in range(start, stop):
+        i, j = pairs[row, 0], pairs[row, 1]
+        curvature, pull = element(suctions, row) / tension, forces[row] / tension
+        first = cap_at(0.5 * pull / math.pi, curvature, radii[i], angles[kind[i]])
+        second = cap_at(0.5 * pull / math.pi, curvature, radii[j], angles[kind[j]])
+        n11, n33 = meniscus_of(max(gaps[row], 0.0), curvature, pull, volumes[row], first, second)
+        out[row, AREA] = 2.0 * n11 + n33
+        out[row, FILLING_1], out[row, FILLING_2] = first.filling, second.filling
+        out[row, WETTED_1], out[row, WETTED_2] = first.area, second.area
+        out[row, ACROSS], out[row, AXIAL] = n11, n33

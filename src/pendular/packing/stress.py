@@ -18,8 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._jit import element, in_chunks, kernel
-from .answers import Answers, Ends
-from .shape import ACROSS, AREA, AXIAL, FILLING_1, FILLING_2, WETTED_1, WETTED_2, cap_of, moments_of, plane_cap
+from .answers import Answers
+from .neighbours import Neighbours
+from .setting import Setting
+from .shape import ACROSS, AREA, AXIAL, FILLING_1, WETTED_1, cap_of, plane_cap
 
 __all__ = ["Shares", "fabric_of", "shares_of", "stress_sum"]
 
@@ -45,58 +47,67 @@ def fabric_of(normals: Floats) -> Floats:
     """(1/N) Σ n ⊗ n; NaN without a bridge."""
     if len(normals) == 0:
         return np.full((3, 3), np.nan)
-    return dyads(np.full(len(normals), 1.0 / len(normals)), normals)
+    return dyads(np.ones(1), normals) / len(normals)
 
 
+@kernel
 def dyads(weights: Floats, normals: Floats) -> Floats:
-    """Σ w n ⊗ n, symmetric to the last digit."""
-    total = normals.T @ (weights[:, None] * normals)
-    return np.asarray(0.5 * (total + total.T))
+    """Σ w n ⊗ n."""
+    total = np.zeros((3, 3))
+    for i in range(normals.shape[0]):
+        weight = element(weights, i)
+        for k in range(3):
+            for m in range(k + 1):
+                total[k, m] += weight * normals[i, k] * normals[i, m]
+    for k in range(3):
+        for m in range(k):
+            total[m, k] = total[k, m]
+    return total
 
 
-def shares_of(ends: Ends, answers: Answers, angles: Floats, normals: Floats, tension: float) -> Shares:
+def shares_of(setting: Setting, near: Neighbours, normals: Floats, answers: Answers, shape: Floats) -> Shares:
     """Sums over bridges of the three parts, [J]."""
+    tension = setting.liquid.surface_tension
     moments = np.empty((len(normals), 2))
     in_chunks(
         _moment_range, len(normals), _CHUNK,
-        answers.suction, answers.shape, ends.radius1, ends.radius2, angles[ends.kind1], angles[ends.kind2], tension,
-        moments,
+        near.pairs, setting.radii, setting.kind, setting.angles, answers.suction, shape, tension, moments,
     )  # fmt: skip
     identity = np.eye(3)
     liquid = np.sum(answers.suction * answers.volume) * identity
-    across, axial = answers.shape[:, ACROSS], answers.shape[:, AXIAL]
-    area = answers.shape[:, AREA]
+    across, axial, area = shape[:, ACROSS], shape[:, AXIAL], shape[:, AREA]
     surface = tension * (np.sum(area - across) * identity + dyads(across - axial, normals))
     # From the poles of the grains to their centres; a plane is its own centre.
-    solid = sum(np.where(np.isinf(radius), 0.0, radius) for radius in (ends.radius1, ends.radius2))
-    arm = answers.force * (solid + np.minimum(ends.gap, 0.0))
-    pull = tension * moments
-    contact = np.sum(pull[:, 1]) * identity + dyads(pull[:, 0] - pull[:, 1] + arm, normals)
+    arm = np.where(np.isinf(setting.radii), 0.0, setting.radii)[near.pairs].sum(axis=1) + np.minimum(near.gap, 0.0)
+    contact = tension * np.sum(moments[:, 1]) * identity
+    contact += dyads(tension * (moments[:, 0] - moments[:, 1]) + answers.force * arm, normals)
     return Shares(liquid, surface, contact)
 
 
 @kernel
 def _moment_range(
+    pairs: NDArray[np.int32],
+    radii: Floats,
+    kind: NDArray[np.int32],
+    angles: Floats,
     suctions: Floats,
     shape: Floats,
-    radii1: Floats,
-    radii2: Floats,
-    angles1: Floats,
-    angles2: Floats,
     tension: float,
     out: Floats,
     start: int,
     stop: int,
 ) -> None:
     """Moments of the pull on the solids about their poles, over γ: along the axis and across it."""
-    for i in range(start, stop):
-        curvature = element(suctions, i) / tension
-        if np.isinf(radii1[i]):
-            first = plane_cap(shape[i, WETTED_1], angles1[i])
-        else:
-            first = cap_of(shape[i, FILLING_1], curvature, radii1[i], angles1[i])
-        if np.isinf(radii2[i]):
-            second = plane_cap(shape[i, WETTED_2], angles2[i])
-        else:
-            second = cap_of(shape[i, FILLING_2], curvature, radii2[i], angles2[i])
-        out[i, 0], out[i, 1] = moments_of(first, second)
+    for row in range(start, stop):
+        curvature = element(suctions, row) / tension
+        axial, across = 0.0, 0.0
+        for side in range(2):
+            body = pairs[row, side]
+            angle = angles[kind[body]]
+            if np.isinf(radii[body]):
+                cap = plane_cap(shape[row, WETTED_1 + side], angle)
+            else:
+                cap = cap_of(shape[row, FILLING_1 + side], curvature, radii[body], angle)
+            axial += cap.axial_moment
+            across += cap.across_moment
+        out[row, 0], out[row, 1] = axial, across

@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .answers import Answers, answers_at
-from .history import Pairs, pairs_at
+from .history import pairs_at
+from .neighbours import Neighbours
 from .setting import Setting
 from .state import State, standing_of
 
@@ -22,7 +23,7 @@ RULES: tuple[Rule, ...] = ("shared", "lost")
 class Undrained(NamedTuple):
     """Pairs that hold a bridge, and the liquid that left or entered."""
 
-    pairs: Pairs
+    pairs: Neighbours
     answers: Answers
     supplied: float  # to new bridges, [m³]
     released: float  # lost to the outside
@@ -52,11 +53,11 @@ def undrained_of(setting: Setting, volume: float, start: State | bool, rule: Rul
     largest = max(volume, 2.0 * float(stood.max(initial=0.0)))
     pairs = pairs_at(setting, "volume", largest)
     unheld = start.unheld if isinstance(start, State) else 0.0
-    held = np.zeros(len(pairs.near.gap))
+    held = np.zeros(len(pairs.gap))
     if isinstance(start, State):
-        standing = standing_of(start, pairs.near)
+        standing = standing_of(start, pairs)
         held[standing.has] = start.volume[standing.bridge[standing.has]]
-    forms = (pairs.touching if start is not True else np.ones(len(held), bool)) & (held == 0.0)
+    forms = (setting.touching(pairs.gap) if start is not True else np.ones(len(held), bool)) & (held == 0.0)
     held[forms] = volume
     is_new = forms & (held > 0.0)
     members = held > 0.0
@@ -72,29 +73,29 @@ def undrained_of(setting: Setting, volume: float, start: State | bool, rule: Rul
             released += float(np.sum(liquid))
         else:
             unheld += _share(setting.heap.count, pairs, held, ends, liquid)
-        answers = answers_at(setting, pairs.ends, "volume", held)
+        answers = answers_at(setting, pairs, "volume", held)
         stands = answers.exists
-        ends, liquid = pairs.near.pairs[~stands].astype(np.int64), held[~stands]
+        ends, liquid = pairs.pairs[~stands].astype(np.int64), held[~stands]
         pairs, held, answers = pairs.taken(stands), held[stands], answers.taken(stands)
         if stands.all():
             return Undrained(pairs, answers._replace(volume=held), supplied, released, unheld)
 
 
-def _stands(setting: Setting, pairs: Pairs, held: Floats, is_new: Bools) -> Bools:
+def _stands(setting: Setting, pairs: Neighbours, held: Floats, is_new: Bools) -> Bools:
     """Whether a pair is near enough for its bridge, of the new ones; the others stood before."""
     stands = np.ones(len(held), bool)
-    stands[is_new] = answers_at(setting, pairs.ends.taken(is_new), "volume", held[is_new]).exists
+    stands[is_new] = answers_at(setting, pairs.taken(is_new), "volume", held[is_new]).exists
     return stands
 
 
-def _share(grains: int, pairs: Pairs, held: Floats, ends: NDArray[np.integer], liquid: Floats) -> float:
+def _share(grains: int, pairs: Neighbours, held: Floats, ends: NDArray[np.integer], liquid: Floats) -> float:
     """Add the liquid of broken bridges to the others of their grains; return what no bridge takes."""
-    bodies = max(grains, int(pairs.near.pairs.max(initial=0)) + 1, int(ends.max(initial=0)) + 1)
-    number = np.bincount(pairs.near.pairs.ravel(), minlength=bodies)
+    bodies = max(grains, int(pairs.pairs.max(initial=0)) + 1, int(ends.max(initial=0)) + 1)
+    number = np.bincount(pairs.pairs.ravel(), minlength=bodies)
     number[grains:] = 0  # walls take nothing
     takes = number[ends] > 0
     count = takes.sum(axis=1)
     portion = np.where(takes, (liquid / np.maximum(count, 1))[:, None], 0.0)
     each = np.bincount(ends.ravel(), weights=portion.ravel(), minlength=bodies) / np.maximum(number, 1)
-    held += each[pairs.near.pairs].sum(axis=1)
+    held += each[pairs.pairs].sum(axis=1)
     return float(np.sum(liquid[count == 0]))

@@ -12,11 +12,12 @@ from ..bridges import rupture
 from ..liquid import Liquid, suction_from_humidity
 from ..pair import Pair
 from .amount import equilibrium_of
-from .answers import Answers, answers_at, uses_table
+from .answers import Answers, answers_at, geometry_of, uses_table
 from .heap import Packing
-from .history import Pairs, pairs_at, solid_volume_at, step_at
+from .history import pairs_at, solid_volume_at, step_at
+from .neighbours import Neighbours
 from .setting import Setting, setting_of
-from .shape import AREA, POTENTIAL
+from .shape import AREA
 from .solids import pore_volume_of
 from .state import Book, State, standing_of
 from .undrained import RULES, Rule, undrained_of
@@ -40,7 +41,7 @@ class PackingWarning(UserWarning):
 class Outcome(NamedTuple):
     """Pairs that hold a bridge, and the liquid."""
 
-    pairs: Pairs
+    pairs: Neighbours
     answers: Answers
     suction: float
     supplied: float
@@ -144,7 +145,6 @@ def wet(
     one_of("rule", rule, RULES)
     density = None if grain_density is None else _positive("grain_density", grain_density, "kg/m**3")
     before = _start_of(setting, path, start)
-    pore_volume_of(heap, solid_volume_at(heap))
     given = dict(
         zip(
             _CONTROLS,
@@ -167,6 +167,8 @@ def wetted_of(
     setting: Setting, outcome: Outcome, before: State | bool, density: float | None, is_checked: bool = True
 ) -> Wet:
     """The answer, from the pairs that hold a bridge."""
+    solid_volume = solid_volume_at(setting.heap)
+    pore_volume_of(setting.heap, solid_volume)
     bridges = bridges_of(setting, outcome.pairs, outcome.answers)
     had = before.liquid_volume if isinstance(before, State) else 0.0
     book = Book(had, outcome.supplied, float(np.sum(bridges.volume)), outcome.released, outcome.unheld)
@@ -175,11 +177,10 @@ def wetted_of(
         bridges,
         book,
         outcome.suction,
-        solid_volume_at(setting.heap),
+        solid_volume,
         density,
         _table_error(setting, outcome) if is_checked else NOT_CHECKED,
         setting,
-        outcome.pairs.ends,
     )
 
 
@@ -188,14 +189,14 @@ def _drained(setting: Setting, suction: float, before: State | bool) -> Outcome:
     pairs = pairs_at(setting, "suction", suction)
     released, liquid = 0.0, 0.0
     if isinstance(before, State):
-        standing = standing_of(before, pairs.near)
+        standing = standing_of(before, pairs)
         had = standing.has
         step = step_at(setting, pairs, suction, had)
         broken = standing.bridge[had & ~step.members]
         released = float(np.sum(before.volume[broken]) + np.sum(before.volume[standing.gone]))
         liquid = before.liquid_volume
     else:
-        step = step_at(setting, pairs, suction, np.full(len(pairs.near.gap), before))
+        step = step_at(setting, pairs, suction, before)
     _tell_noise(setting, pairs, suction)
     kept, answers = pairs.taken(step.members), step.answers.taken(step.members)
     held = float(np.sum(answers.volume))
@@ -277,21 +278,19 @@ def _positive(name: str, value: object, unit: str) -> float:
     return in_range(name, scalar(name, value, unit), 0.0, brackets="(]", unit=unit.replace("**", "^"))
 
 
-def _tell_noise(setting: Setting, pairs: Pairs, suction: float) -> None:
+def _tell_noise(setting: Setting, pairs: Neighbours, suction: float) -> None:
     """Warn where grains overlap by more than a bridge spans."""
-    overlap = pairs.near.gap < 0.0
+    overlap = pairs.gap < 0.0
     if not overlap.any():
         return
-    deepest = int(np.argmin(pairs.near.gap))
-    ends = pairs.ends
-    pair = Pair(
-        (ends.radius1[deepest], ends.radius2[deepest]),
-        (setting.angles[ends.kind1[deepest]], setting.angles[ends.kind2[deepest]]),
-    )
+    deepest = int(np.argmin(pairs.gap))
+    bodies = pairs.pairs[deepest]
+    radii, angles = setting.radii[bodies], setting.angles[setting.kind[bodies]]
+    pair = Pair((radii[0], radii[1]), (angles[0], angles[1]))
     spanned = float(np.nan_to_num(rupture(pair, suction=suction, liquid=setting.liquid).separation))
-    if -pairs.near.gap[deepest] > spanned:
+    if -pairs.gap[deepest] > spanned:
         warn(
-            f"positions: grains overlap by up to {-pairs.near.gap[deepest]:.3g} m, more than a bridge spans at "
+            f"positions: grains overlap by up to {-pairs.gap[deepest]:.3g} m, more than a bridge spans at "
             f"{suction:.6g} Pa, {spanned:.3g} m; with noise of that size gaps look too wide and the stress is too low",
             PackingWarning,
         )
@@ -303,17 +302,19 @@ def _table_error(setting: Setting, outcome: Outcome) -> TableError:
     if not rows or not uses_table(setting, rows):
         return TableError(0, 0.0, 0.0, 0.0, 0.0)
     chosen = np.unique(np.linspace(0, rows - 1, _SAMPLE).astype(np.int64))
-    some, ends = outcome.answers.taken(chosen), outcome.pairs.ends.taken(chosen)
-    exact = answers_at(setting._replace(method="exact"), ends, "suction", some.suction)
+    some, near = outcome.answers.taken(chosen), outcome.pairs.taken(chosen)
+    held = some.suction if some.control == "suction" else some.volume
+    exact = answers_at(setting._replace(method="exact"), near, some.control, held)
 
     def worst(found: Floats, true: Floats, all_of: Floats) -> float:
         return float(np.nanmax(np.abs(found - true)) / np.max(np.abs(all_of)))
 
+    shape, true_shape = geometry_of(setting, near, some), geometry_of(setting, near, exact)
     whole = outcome.answers
     return TableError(
         len(chosen),
         worst(some.force, exact.force, whole.force),
         worst(some.volume, exact.volume, whole.volume),
-        worst(some.shape[:, AREA], exact.shape[:, AREA], whole.shape[:, AREA]),
-        worst(some.shape[:, POTENTIAL], exact.shape[:, POTENTIAL], whole.shape[:, POTENTIAL]),
+        worst(shape[:, AREA], true_shape[:, AREA], shape[:, AREA]),
+        worst(some.potential, exact.potential, whole.potential),
     )

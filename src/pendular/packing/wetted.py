@@ -9,13 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._check import in_range, scalar
-from .answers import Answers, Ends
+from .answers import Answers, geometry_of
 from .heap import Packing
-from .history import Pairs
 from .meetings import Meetings, meetings_of
-from .neighbours import branches_of
+from .neighbours import Neighbours, arms_of
 from .setting import Setting
-from .shape import AREA, POTENTIAL
+from .shape import AREA
 from .solids import pore_volume_of
 from .state import Book, State
 from .stress import Shares, fabric_of, shares_of, stress_sum
@@ -38,6 +37,7 @@ class BridgesOfHeap:
     normal: Floats = field(repr=False)  # (n, 3), unit vector from the first to the second
     length: Floats = field(repr=False)  # (n,), between centres, or from a centre to the wall, [m]
     _answers: Answers = field(repr=False)
+    _shape: Floats = field(repr=False)
 
     def __len__(self) -> int:
         return len(self.separation)
@@ -55,32 +55,32 @@ class BridgesOfHeap:
     @property
     def suction(self) -> Floats:
         """Gas pressure minus liquid pressure, [Pa]."""
-        return self._answers.suction
+        return np.broadcast_to(self._answers.suction, self.separation.shape)
 
     @property
     def liquid_gas_area(self) -> Floats:
         """Area of the meniscus, [m²]."""
-        return self._answers.shape[:, AREA]
+        return self._shape[:, AREA]
 
     @property
     def half_filling_angle(self) -> Floats:
         """Half-filling angles, (n, 2), 0 on a wall, [rad]."""
-        return self._answers.shape[:, 1:3]
+        return self._shape[:, 1:3]
 
     @property
     def wetted_area(self) -> Floats:
         """Wetted areas, (n, 2), [m²]."""
-        return self._answers.shape[:, 3:5]
+        return self._shape[:, 3:5]
 
     @property
     def capillary_tensor(self) -> Floats:
         """∫ n ⊗ n over the meniscus, (n, 2): across and along ``normal``, [m²]."""
-        return self._answers.shape[:, 5:7]
+        return self._shape[:, 5:7]
 
     @property
     def grand_potential(self) -> Floats:
         """Surface energy + suction x volume, [J]; in an overlap it goes on with the force of contact."""
-        return self._answers.shape[:, POTENTIAL]
+        return self._answers.potential
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,6 @@ class Wet:
     grain_density: float | None  # [kg/m³]
     table_error: TableError
     _setting: Setting = field(repr=False)
-    _ends: Ends = field(repr=False)
 
     @property
     def liquid_volume(self) -> float:
@@ -159,13 +158,9 @@ class Wet:
     @cached_property
     def stress_shares(self) -> Shares:
         """Parts of the stress that liquid, menisci and grains carry, (3, 3) each, [Pa]."""
-        sums = shares_of(
-            self._ends,
-            self.bridges._answers,
-            self._setting.angles,
-            self.bridges.normal,
-            self._setting.liquid.surface_tension,
-        )
+        bridges = self.bridges
+        near = Neighbours(bridges.pairs, bridges.image, bridges.separation)
+        sums = shares_of(self._setting, near, bridges.normal, bridges._answers, bridges._shape)
         return Shares(*(part / self.heap.volume for part in sums))
 
     @property
@@ -191,7 +186,7 @@ class Wet:
     @property
     def contacts(self) -> float:
         """Bridges a grain whose bodies touch."""
-        touching = self._setting.touching(self.bridges.separation, self._ends.radius1, self._ends.radius2)
+        touching = self._setting.touching(self.bridges.separation)
         return float(np.count_nonzero(self.bridges.pairs[touching] < self.heap.count)) / self.heap.count
 
     @cached_property
@@ -271,10 +266,8 @@ class Wet:
         )
 
 
-def bridges_of(setting: Setting, pairs: Pairs, answers: Answers) -> BridgesOfHeap:
+def bridges_of(setting: Setting, near: Neighbours, answers: Answers) -> BridgesOfHeap:
     """Bridges of the pairs that hold one."""
-    branches = branches_of(setting.heap, pairs.near)
-    length = np.sqrt(np.einsum("ij,ij->i", branches, branches))
-    return BridgesOfHeap(
-        pairs.near.pairs, pairs.near.image, pairs.near.gap, branches / length[:, None], length, answers
-    )
+    normal, length = arms_of(setting.heap, near)
+    shape = geometry_of(setting, near, answers)
+    return BridgesOfHeap(near.pairs, near.image, near.gap, normal, length, answers._replace(shape=None), shape)
