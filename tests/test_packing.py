@@ -8,7 +8,7 @@ import pytest
 
 import pendular as pl
 from pendular.packing.history import pairs_at
-from pendular.packing.neighbours import arms_of, find_neighbours, reach_table
+from pendular.packing.neighbours import arms_of, find_neighbours
 from pendular.packing.setting import setting_of
 
 UNIT = pl.Liquid(surface_tension=1.0)
@@ -41,11 +41,11 @@ def loose(count=200, seed=SEED, spread=2.0, density=0.45, cell=None):
     places = random.uniform(0, 1, (count, 3)) @ cell
     for _ in range(400):
         heap = pl.Packing(places, radii, cell=cell)
-        near = find_neighbours(heap, reach_table(heap, lambda first, second: 0.0 * first))
+        near = find_neighbours(heap, lambda first, second: 0.0 * first)
         push = 0.25 * np.minimum(near.gap, 0.0)[:, None] * arms_of(heap, near)[0]
         np.add.at(places, near.pairs[:, 0], push)
         np.add.at(places, near.pairs[:, 1], -push)
-    near = find_neighbours(heap, reach_table(heap, lambda first, second: 0.0 * first))
+    near = find_neighbours(heap, lambda first, second: 0.0 * first)
     shrink = 1.0 - 1e-9 + min(0.0, float((near.gap / (radii[near.pairs].sum(axis=1))).min(initial=0.0)))
     return pl.Packing(places, shrink * radii, cell=cell)
 
@@ -230,7 +230,7 @@ def test_pairs_are_found_in_any_cell():
         heap = pl.Packing(
             random.uniform(-1, 2, (count, 3)) @ cell, radii, cell=cell if turn % 5 else None, periodic=periodic
         )
-        near = find_neighbours(heap, reach_table(heap, lambda first, second: np.full(first.shape, 0.1)))
+        near = find_neighbours(heap, lambda first, second: np.full(first.shape, 0.1))
         wraps = np.where(heap.periodic, np.floor(heap.positions @ np.linalg.inv(heap.box)), 0.0)
         inside = heap.positions - wraps @ heap.box
         found = {tuple(pair): gap for pair, gap in zip(near.pairs.tolist(), near.gap, strict=True)}

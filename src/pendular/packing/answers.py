@@ -94,15 +94,16 @@ def answers_at(setting: Setting, near: Neighbours, control: ControlName, values:
     rows = len(near.gap)
     if rows == 0 or not uses_table(setting, rows):
         return _exactly(setting, near, control, values)
-    found = Answers(control, np.empty(rows), np.empty(rows), np.empty(rows), np.empty(rows), None)
+    is_common = control == "suction" and values.size == 1
+    suction = np.empty(0) if is_common else np.empty(rows)
+    found = Answers(control, np.empty(rows), np.empty(rows), suction, np.empty(rows), None)
     rest = _from_tables(setting, near, control, values, found)
     if rest.size:
         few = _exactly(setting, near.taken(rest), control, values if values.size == 1 else values[rest])
         found.force[rest], found.volume[rest], found.potential[rest] = few.force, few.volume, few.potential
-        found.suction[rest] = few.suction
-    if control == "suction" and values.size == 1:
-        return found._replace(suction=values)
-    return found
+        if not is_common:
+            found.suction[rest] = few.suction
+    return found._replace(suction=values) if is_common else found
 
 
 def geometry_of(setting: Setting, near: Neighbours, answers: Answers) -> Floats:
@@ -224,7 +225,9 @@ def _table_range(
             i, j = j, i
         held = element(values, row)
         pair, place, rupture = find(grid, held, radii[i], radii[j], tension)
-        forces[row], volumes[row], suctions[row], potentials[row] = 0.0, math.nan, math.nan, math.nan
+        forces[row], volumes[row], potentials[row] = 0.0, math.nan, math.nan
+        if suctions.size:
+            suctions[row] = math.nan
         if gap_of(gaps[row]) >= rupture:
             continue
         cell, t = cell_of(grid, place, q_of(gaps[row], rupture))
@@ -232,7 +235,9 @@ def _table_range(
         unit = liquid_unit(grid, pair.control, pair.radius, tension)
         other = unit * in_three(grid.liquid, cell * CELL, place.x, place.y, t)
         volume, suction = (held, other) if grid.is_volume else (other, held)
-        forces[row], volumes[row], suctions[row] = force, volume, suction
+        forces[row], volumes[row] = force, volume
+        if suctions.size:
+            suctions[row] = suction
         potentials[row] = potential_of(gaps[row], suction, force, volume, radii[i], radii[j], angle1, angle2, tension)
 
 

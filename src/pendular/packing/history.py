@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from .answers import Answers, answers_at
 from .heap import Packing
-from .neighbours import Neighbours, ReachTable, find_neighbours, reach_table
+from .neighbours import Neighbours, ReachTable, reach_table, within
 from .setting import Setting, reach_at
 from .solids import check_overlaps, solid_volume_of
 
@@ -62,7 +62,7 @@ def _searched(heap: Packing, asked: ReachTable) -> Search:
     """Pairs of a heap within a reach or a wider one."""
     known = _SEARCHED.get(heap)
     if known is None or not known.reach.covers(asked):
-        near = find_neighbours(heap, asked)
+        near = within(heap, asked)
         check_overlaps(heap, near)
         known = Search(asked, near, solid_volume_of(heap, near))
         _SEARCHED[heap] = known

@@ -14,7 +14,17 @@ from numpy.typing import NDArray
 from .._jit import in_chunks, kernel
 from .heap import Packing
 
-__all__ = ["Neighbours", "Reach", "ReachTable", "Sizes", "arms_of", "find_neighbours", "reach_table", "sizes_of"]
+__all__ = [
+    "Neighbours",
+    "Reach",
+    "ReachTable",
+    "Sizes",
+    "arms_of",
+    "find_neighbours",
+    "reach_table",
+    "sizes_of",
+    "within",
+]
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -119,7 +129,12 @@ def reach_table(heap: Packing, reach: Reach) -> ReachTable:
     return ReachTable(sizes, gaps, at_wall)
 
 
-def find_neighbours(heap: Packing, reach: ReachTable) -> Neighbours:
+def find_neighbours(heap: Packing, reach: Reach) -> Neighbours:
+    """All pairs within the reach of their classes; arguments as for :func:`reach_table`, the rest of :func:`within`."""
+    return within(heap, reach_table(heap, reach))
+
+
+def within(heap: Packing, reach: ReachTable) -> Neighbours:
     """All pairs within the reach of their classes.
 
     Parameters

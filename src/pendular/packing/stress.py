@@ -71,36 +71,36 @@ def shares_of(setting: Setting, near: Neighbours, normals: Floats, answers: Answ
     moments = np.empty((len(normals), 2))
     in_chunks(
         _moment_range, len(normals), _CHUNK,
-        near.pairs, setting.radii, setting.kind, setting.angles, answers.suction, shape, tension, moments,
+        near.pairs, near.gap, setting.radii, setting.kind, setting.angles, answers.suction, answers.force, shape, tension,
+        moments,
     )  # fmt: skip
     identity = np.eye(3)
     liquid = np.sum(answers.suction * answers.volume) * identity
     across, axial, area = shape[:, ACROSS], shape[:, AXIAL], shape[:, AREA]
     surface = tension * (np.sum(area - across) * identity + dyads(across - axial, normals))
-    # From the poles of the grains to their centres; a plane is its own centre.
-    arm = np.where(np.isinf(setting.radii), 0.0, setting.radii)[near.pairs].sum(axis=1) + np.minimum(near.gap, 0.0)
-    contact = tension * np.sum(moments[:, 1]) * identity
-    contact += dyads(tension * (moments[:, 0] - moments[:, 1]) + answers.force * arm, normals)
+    contact = np.sum(moments[:, 1]) * identity + dyads(moments[:, 0] - moments[:, 1], normals)
     return Shares(liquid, surface, contact)
 
 
 @kernel
 def _moment_range(
     pairs: NDArray[np.int32],
+    gaps: Floats,
     radii: Floats,
     kind: NDArray[np.int32],
     angles: Floats,
     suctions: Floats,
+    forces: Floats,
     shape: Floats,
     tension: float,
     out: Floats,
     start: int,
     stop: int,
 ) -> None:
-    """Moments of the pull on the solids about their poles, over γ: along the axis and across it."""
+    """Moments of the pull on the solids about their centres: along the axis and across it; a plane has no centre."""
     for row in range(start, stop):
         curvature = element(suctions, row) / tension
-        axial, across = 0.0, 0.0
+        axial, across, arm = 0.0, 0.0, min(gaps[row], 0.0)
         for side in range(2):
             body = pairs[row, side]
             angle = angles[kind[body]]
@@ -108,6 +108,7 @@ def _moment_range(
                 cap = plane_cap(shape[row, WETTED_1 + side], angle)
             else:
                 cap = cap_of(shape[row, FILLING_1 + side], curvature, radii[body], angle)
+                arm += radii[body]
             axial += cap.axial_moment
             across += cap.across_moment
-        out[row, 0], out[row, 1] = axial, across
+        out[row, 0], out[row, 1] = tension * axial + forces[row] * arm, tension * across
