@@ -71,8 +71,8 @@ def shares_of(setting: Setting, near: Neighbours, normals: Floats, answers: Answ
     moments = np.empty((len(normals), 2))
     in_chunks(
         _moment_range, len(normals), _CHUNK,
-        near.pairs, near.gap, setting.radii, setting.kind, setting.angles, answers.suction, answers.force, shape, tension,
-        moments,
+        near.pairs, near.gap, setting.radii, setting.kind, setting.angles, answers.suction, answers.force, shape,
+        tension, moments,
     )  # fmt: skip
     identity = np.eye(3)
     liquid = np.sum(answers.suction * answers.volume) * identity
