@@ -32,9 +32,9 @@ from .packing.heap import Packing as Packing
 from .packing.heap import Wall as Wall
 from .packing.limit import pendular_limit as pendular_limit
 from .packing.retention import retention as retention
+from .packing.setting import PackingWarning as PackingWarning
 from .packing.state import State as State
 from .packing.state import load_state as load_state
-from .packing.wet import PackingWarning as PackingWarning
 from .packing.wet import wet as wet
 from .packing.wetted import Wet as Wet
 from .pair import Pair as Pair

@@ -6,9 +6,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .._jit import kernel
 from .wetted import Wet
 
-__all__ = ["View", "image_of", "menisci_of", "view_of"]
+__all__ = ["View", "image_of", "view_of"]
 
 Floats = NDArray[np.float64]
 
@@ -16,7 +17,9 @@ _ANGLES = math.radians(35.0), math.radians(25.0)  # by which the heap is turned,
 _MARGIN = 1.02
 _LIGHT = np.array([-0.45, 0.55, 0.70])
 _SHADE = 0.45  # brightness of what turns away from the light
-_POINTS_A_BRIDGE = 4_000_000  # in all, of the surfaces of the menisci
+_RIM, _RIM_SHADE = 0.08, 0.85  # a rim sets grains apart
+_DENSITY = 0.5  # pixels between points of a meniscus
+_DEPTH_OF_FILM = 0.5  # pixels by which a point may lie behind another one
 
 
 class View(NamedTuple):
@@ -65,51 +68,39 @@ def image_of(w: Wet, view: View, pixels: int, colours: tuple[Floats, Floats, Flo
     image = np.broadcast_to(colours[2], (rows, columns, 3)).copy()
     centres = _inside(w)
     places = (centres @ view.axes.T - np.append(view.low, 0.0)) / pixel
+    light = _LIGHT / np.linalg.norm(_LIGHT)
     for place, radius in zip(places, w.heap.radii / pixel, strict=True):
-        _draw_ball(depth, image, place, float(radius), colours[0])
-    surface, normals = menisci_of(w, max(8, min(4000, _POINTS_A_BRIDGE // max(1, len(w.bridges)))), pixel)
-    seen = (surface @ view.axes.T - np.append(view.low, 0.0)) / pixel
-    _draw_points(depth, image, seen, _brightness(normals @ view.axes.T), colours[1])
+        _draw_ball(depth, image, place, radius, colours[0], light)
+    ends, control, chosen = _meridians_of(w, centres)
+    meridians = np.stack([ends[0], control, ends[1]], axis=1) / pixel
+    first = w.bridges.pairs[chosen, 0]
+    axes = w.bridges.normal[chosen] @ view.axes.T
+    poles = places[first] + (w.heap.radii[first] / pixel)[:, None] * axes
+    for row in range(len(chosen)):
+        _draw_meniscus(depth, image, poles[row], axes[row], meridians[row], colours[1], light)
     return image
 
 
-def menisci_of(w: Wet, most: int, spacing: float) -> tuple[Floats, Floats]:
-    """Points on the menisci and their normals, no farther apart than a spacing, at most so many a bridge.
+def _meridians_of(w: Wet, centres: Floats) -> tuple[tuple[Floats, Floats], Floats, NDArray[np.intp]]:
+    """Both ends of meridians, along the axis from the first pole and away from it, and the control point between.
 
-    The meridian is a parabola that leaves both solids at their contact angles: to the eye it is the true one.
+    The meridian is a parabola that leaves both solids at their contact angles: to the eye it is the true one. Bridges
+    that leave the cell are left out.
     """
-    bridges = w.bridges
-    if not len(bridges):
-        return np.empty((0, 3)), np.empty((0, 3))
-    radii = w._setting.radii[bridges.pairs]
-    angles = w._setting.angles[w._setting.kind[bridges.pairs]]
-    filling = bridges.half_filling_angle
-    circle = np.sqrt(bridges.wetted_area / np.pi)
+    first, second = w.bridges.pairs.T
+    at_wall = second >= w.heap.count
+    arm = centres[np.where(at_wall, first, second)] - centres[first]
+    chosen = np.flatnonzero(at_wall | (np.linalg.norm(arm, axis=1) < 1.001 * w.bridges.length))
+    pairs, filling = w.bridges.pairs[chosen], w.bridges.half_filling_angle[chosen]
+    angles = w._setting.angles[w._setting.kind[pairs]]
+    radii = w._setting.radii[pairs]
     finite = np.isfinite(radii)
     bulk = np.where(finite, radii, 0.0)
-    circle = np.where(finite, bulk * np.sin(filling), circle)
+    circle = np.where(finite, bulk * np.sin(filling), np.sqrt(w.bridges.wetted_area[chosen] / np.pi))
     height = 2.0 * bulk * np.sin(0.5 * filling) ** 2
-    gap = np.maximum(bridges.separation, 0.0)
+    gap = np.maximum(w.bridges.separation[chosen], 0.0)
     ends = np.stack([-height[:, 0], circle[:, 0]], axis=-1), np.stack([gap + height[:, 1], circle[:, 1]], axis=-1)
-    control = _control_point(ends, filling + angles)
-    around = int(np.clip(2.0 * np.pi * circle.max() / spacing, 8, 2.0 * math.sqrt(most)))
-    along = int(np.clip(np.max(ends[1][:, 0] - ends[0][:, 0]) / spacing * 1.5, 3, max(3, most // around)))
-    t = np.linspace(0.0, 1.0, along)[:, None, None]
-    meridian = (1 - t) ** 2 * ends[0] + 2 * t * (1 - t) * control + t**2 * ends[1]  # (along, bridges, 2)
-    slope = (1 - t) * (control - ends[0]) + t * (ends[1] - control)
-    steep = np.linalg.norm(slope, axis=-1, keepdims=True)
-    slope = slope / np.where(steep > 0.0, steep, 1.0)
-    axis = bridges.normal
-    helper = np.where(np.abs(axis[:, :1]) < 0.7, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]])
-    across = np.cross(axis, helper)
-    across /= np.linalg.norm(across, axis=1, keepdims=True)
-    other = np.cross(axis, across)
-    turn = 2.0 * np.pi * np.arange(around)[:, None, None] / around
-    spoke = np.cos(turn) * across + np.sin(turn) * other  # (around, bridges, 3)
-    pole = _inside(w)[bridges.pairs[:, 0]] + bulk[:, :1] * axis
-    points = pole + meridian[:, None, :, :1] * axis + meridian[:, None, :, 1:] * spoke
-    normals = slope[:, None, :, :1] * spoke - slope[:, None, :, 1:] * axis
-    return points.reshape(-1, 3), normals.reshape(-1, 3)
+    return ends, _control_point(ends, filling + angles), chosen
 
 
 def _control_point(ends: tuple[Floats, Floats], lean: Floats) -> Floats:
@@ -132,42 +123,63 @@ def _inside(w: Wet) -> Floats:
     return np.asarray(w.heap.positions - np.where(w.heap.periodic, np.floor(fractions), 0.0) @ w.heap.box)
 
 
-def _brightness(normals: Floats) -> Floats:
+@kernel
+def _brightness(x: float, y: float, z: float, light: Floats) -> float:
     """Of a surface by its normal to the right, up and to the eye."""
-    light = _LIGHT / np.linalg.norm(_LIGHT)
-    return np.asarray(_SHADE + (1.0 - _SHADE) * np.clip(normals @ light, 0.0, 1.0))
+    return _SHADE + (1.0 - _SHADE) * max(0.0, x * light[0] + y * light[1] + z * light[2])
 
 
-def _draw_ball(depth: Floats, image: Floats, place: Floats, radius: float, colour: Floats) -> None:
-    """A grain, in pixels."""
+@kernel
+def _draw_ball(depth: Floats, image: Floats, place: Floats, radius: float, colour: Floats, light: Floats) -> None:
+    """Draw a grain; lengths in pixels."""
     rows, columns = depth.shape
-    left, right = max(0, math.floor(place[0] - radius)), min(columns, math.ceil(place[0] + radius) + 1)
-    low, high = max(0, math.floor(place[1] - radius)), min(rows, math.ceil(place[1] + radius) + 1)
-    if left >= right or low >= high:
-        return
-    x = (np.arange(left, right) + 0.5 - place[0])[None, :]
-    y = (np.arange(low, high) + 0.5 - place[1])[:, None]
-    rest = radius * radius - x * x - y * y
-    bulge = np.sqrt(np.maximum(rest, 0.0))
-    window = depth[low:high, left:right]
-    nearer = (rest > 0.0) & (place[2] + bulge > window)
-    if not nearer.any():
-        return
-    window[nearer] = (place[2] + bulge)[nearer]
-    normals = np.stack(np.broadcast_arrays(x, y, bulge), axis=-1)[nearer] / radius
-    bright = _brightness(normals) * np.where(rest[nearer] < 0.08 * radius * radius, 0.85, 1.0)  # a rim sets grains apart
-    image[low:high, left:right][nearer] = bright[:, None] * colour
+    for row in range(max(0, math.floor(place[1] - radius)), min(rows, math.ceil(place[1] + radius) + 1)):
+        for column in range(max(0, math.floor(place[0] - radius)), min(columns, math.ceil(place[0] + radius) + 1)):
+            x, y = column + 0.5 - place[0], row + 0.5 - place[1]
+            rest = radius * radius - x * x - y * y
+            if rest <= 0.0:
+                continue
+            bulge = math.sqrt(rest)
+            if place[2] + bulge <= depth[row, column]:
+                continue
+            depth[row, column] = place[2] + bulge
+            bright = _brightness(x / radius, y / radius, bulge / radius, light)
+            if rest < _RIM * radius * radius:
+                bright *= _RIM_SHADE
+            for k in range(3):
+                image[row, column, k] = bright * colour[k]
 
 
-def _draw_points(depth: Floats, image: Floats, places: Floats, bright: Floats, colour: Floats) -> None:
-    """Points of a surface, in pixels."""
+@kernel
+def _draw_meniscus(
+    depth: Floats, image: Floats, pole: Floats, axis: Floats, meridian: Floats, colour: Floats, light: Floats
+) -> None:
+    """Draw a surface of revolution point by point; lengths in pixels, directions as they are seen."""
     rows, columns = depth.shape
-    column, row = np.floor(places[:, :2]).astype(np.int64).T
-    seen = (column >= 0) & (column < columns) & (row >= 0) & (row < rows)
-    pixel, height, bright = (row * columns + column)[seen], places[seen, 2], bright[seen]
-    order = np.lexsort((height, pixel))
-    pixel, height, bright = pixel[order], height[order], bright[order]
-    last = np.append(pixel[1:] != pixel[:-1], True)[: len(pixel)]
-    pixel, height, bright = pixel[last], height[last], bright[last]
-    nearer = height > depth.ravel()[pixel] - 0.5
-    image.reshape(-1, 3)[pixel[nearer]] = bright[nearer, None] * colour
+    across = np.array([-axis[1], axis[0], 0.0]) if abs(axis[2]) < 0.9 else np.array([0.0, -axis[2], axis[1]])
+    across /= math.sqrt(across[0] ** 2 + across[1] ** 2 + across[2] ** 2)
+    other = np.cross(axis, across)
+    (x0, y0), (x1, y1), (x2, y2) = meridian[0], meridian[1], meridian[2]
+    along = max(4, math.ceil((math.hypot(x1 - x0, y1 - y0) + math.hypot(x2 - x1, y2 - y1)) / _DENSITY))
+    around = max(8, math.ceil(2.0 * math.pi * max(y0, y2) / _DENSITY))
+    for i in range(along + 1):
+        t = i / along
+        far = (1 - t) * (1 - t) * x0 + 2 * t * (1 - t) * x1 + t * t * x2
+        wide = (1 - t) * (1 - t) * y0 + 2 * t * (1 - t) * y1 + t * t * y2
+        rise, run = (1 - t) * (y1 - y0) + t * (y2 - y1), (1 - t) * (x1 - x0) + t * (x2 - x1)
+        steep = math.hypot(rise, run)
+        if steep == 0.0:
+            continue
+        for j in range(around):
+            c, s = math.cos(2.0 * math.pi * j / around), math.sin(2.0 * math.pi * j / around)
+            spoke = c * across + s * other
+            normal = (run * spoke - rise * axis) / steep
+            if normal[2] < 0.0:
+                continue
+            place = pole + far * axis + wide * spoke
+            column, row = math.floor(place[0]), math.floor(place[1])
+            if 0 <= column < columns and 0 <= row < rows and place[2] > depth[row, column] - _DEPTH_OF_FILM:
+                depth[row, column] = max(depth[row, column], place[2])
+                bright = _brightness(normal[0], normal[1], normal[2], light)
+                for k in range(3):
+                    image[row, column, k] = bright * colour[k]

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .._check import in_range, quantity
 from ..liquid import Liquid
+from ..units import show
 from .answers import Answers, answers_at
 from .heap import Packing
 from .history import members_of, pairs_at, reach_of
@@ -177,7 +178,9 @@ class _Follower:
             _new_walk("wetting", False, np.nan, len(suctions)),
         ]
         self.turned = [
-            _new_walk(f"{'wetting' if wet else 'drying'} from {turn:.6g} Pa", wet, float(turn), len(suctions))
+            _new_walk(
+                f"{'wetting' if wet else 'drying'} from {show(float(turn), 'Pa', 4)}", wet, float(turn), len(suctions)
+            )
             for turn in turns
             for wet in (True, False)
         ]

@@ -16,14 +16,14 @@ from .answers import Answers, answers_at, geometry_of, uses_table
 from .heap import Packing
 from .history import pairs_at, solid_volume_at, step_at
 from .neighbours import Neighbours
-from .setting import Setting, setting_of
+from .setting import PackingWarning, Setting, setting_of
 from .shape import AREA
 from .solids import pore_volume_of
 from .state import Book, State, standing_of
 from .undrained import RULES, Rule, undrained_of
 from .wetted import TableError, Wet, bridges_of
 
-__all__ = ["PackingWarning", "wet", "wetted_of"]
+__all__ = ["wet", "wetted_of"]
 
 Floats = NDArray[np.float64]
 Path = Literal["drying", "wetting"]
@@ -32,10 +32,6 @@ _AMOUNTS = ("saturation", "water_content", "mass_ratio", "mass_fraction", "liqui
 _CONTROLS = ("suction", "humidity", *_AMOUNTS, "volume")
 NOT_CHECKED = TableError(0, math.nan, math.nan, math.nan, math.nan)
 _SAMPLE = 400  # bridges on which the error of a table is found
-
-
-class PackingWarning(UserWarning):
-    """A heap is asked for what its positions do not tell."""
 
 
 class Outcome(NamedTuple):
