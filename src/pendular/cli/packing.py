@@ -55,9 +55,7 @@ def packing(
     water_content: Annotated[str | None, _text("or liquid over the whole volume, 1%,", "FRACTION")] = None,
     mass_ratio: Annotated[str | None, _text("or mass of liquid over that of grains, 1%.", "FRACTION")] = None,
     grain_density: Annotated[str | None, _text("For masses: 2500kg/m^3.", "DENSITY")] = None,
-    path: Annotated[
-        Literal["drying", "wetting"], _text("How that state is reached: drying or wetting.", "PATH")
-    ] = "drying",
+    path: Annotated[Literal["drying", "wetting"], _text("How it got there: drying, wetting.", "PATH")] = "drying",
     film: Annotated[str | None, _text("Gap up to which grains count as touching: 10nm.", "LENGTH")] = None,
     condensation: Annotated[bool, typer.Option(help="Whether bridges also form by condensation.")] = True,
     liquid: Annotated[str | None, _text("Liquid: ethanol; if not given, water.", "NAME")] = None,
