@@ -7,7 +7,9 @@ from .bridges import bridge as bridge
 from .bridges import curve as curve
 from .bridges import rupture as rupture
 from .by_law import RangeWarning as RangeWarning
+from .codes.grains.labelled import packing_dataset as packing_dataset
 from .codes.grains.reading import read_packing as read_packing
+from .codes.grains.writing import write_packing as write_packing
 from .comparison import Comparison as Comparison
 from .comparison import ErrorMap as ErrorMap
 from .comparison import Recommendation as Recommendation
@@ -30,6 +32,11 @@ from .liquid import humidity_from_suction as humidity_from_suction
 from .liquid import suction_from_humidity as suction_from_humidity
 from .packing.heap import Packing as Packing
 from .packing.heap import Wall as Wall
+from .packing.lattice import lattice_packing as lattice_packing
+from .packing.loosening import loosened as loosened
+from .packing.precision import centre_noise as centre_noise
+from .packing.random_packing import random_packing as random_packing
+from .packing.sieve import sieved_radii as sieved_radii
 from .pair import Pair as Pair
 from .problem import ConvergenceWarning as ConvergenceWarning
 from .result import Bridge as Bridge

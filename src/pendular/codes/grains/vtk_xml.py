@@ -58,21 +58,33 @@ def read(path: Path) -> Found:
         raise ValueError(f"it is cut off or damaged: {error}") from error
     file = _Numbers(root, b"" if start is None else memoryview(content)[start.end() :], start[1] if start else b"")
     pieces = root.findall("./*/Piece")
-    points, sizes = [], []
+    points, sizes, ends = [], [], []
     for piece in pieces:
         count = int(piece.get("NumberOfPoints", "0"))
-        centres = piece.find("./Points/DataArray")
-        if count == 0 or centres is None:
+        told = piece.find("./Points/DataArray")
+        if count == 0 or told is None:
             continue
-        points.append(file.of(centres, 3 * count).reshape(-1, 3))
+        points.append(file.of(told, 3 * count).reshape(-1, 3))
         arrays = piece.findall("./PointData/DataArray")
         size = size_of([array.get("Name", "") for array in arrays])
         if size is not None:
             sizes.append(file.of(arrays[size[0]], count) * size[1])
+        ends += [file.of(array, count) for array in arrays if array.get("Name") == "end_of_bridge"]
     if not points:
         raise ValueError("it holds no points")
-    whole = len(sizes) == len(points)
-    return Found(np.concatenate(points), np.concatenate(sizes) if whole else None)
+    centres, radii = np.concatenate(points), np.concatenate(sizes) if len(sizes) == len(points) else None
+    if ends and radii is not None:  # a heap that was written with its bridges
+        own = np.concatenate(ends) == 0.0
+        centres, radii = centres[own], radii[own]
+    return Found(centres, radii, *_frame(root, file))
+
+
+def _frame(root: ElementTree.Element, file: "_Numbers") -> tuple[NDArray[np.float64] | None, NDArray[np.bool_] | None]:
+    """Cell and periodic directions, where a heap was written with them."""
+    told = {array.get("Name"): array for array in root.findall("./*/FieldData/DataArray")}
+    if not {"cell", "periodic"} <= set(told):
+        return None, None
+    return file.of(told["cell"], 9).reshape(3, 3), file.of(told["periodic"], 3) != 0.0
 
 
 class _Numbers:
