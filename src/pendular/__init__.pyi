@@ -33,10 +33,17 @@ from .liquid import suction_from_humidity as suction_from_humidity
 from .packing.heap import Packing as Packing
 from .packing.heap import Wall as Wall
 from .packing.lattice import lattice_packing as lattice_packing
+from .packing.limit import pendular_limit as pendular_limit
 from .packing.loosening import loosened as loosened
 from .packing.precision import centre_noise as centre_noise
 from .packing.random_packing import random_packing as random_packing
+from .packing.retention import retention as retention
+from .packing.setting import PackingWarning as PackingWarning
 from .packing.sieve import sieved_radii as sieved_radii
+from .packing.state import State as State
+from .packing.state import load_state as load_state
+from .packing.wet import wet as wet
+from .packing.wetted import Wet as Wet
 from .pair import Pair as Pair
 from .problem import ConvergenceWarning as ConvergenceWarning
 from .result import Bridge as Bridge

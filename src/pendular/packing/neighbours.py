@@ -7,7 +7,6 @@ of its own class and of the larger ones, so that a few large grains do not make 
 import math
 from collections.abc import Callable
 from typing import NamedTuple
-from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +14,17 @@ from numpy.typing import NDArray
 from .._jit import in_chunks, kernel
 from .heap import Packing
 
-__all__ = ["Neighbours", "Sizes", "branches_of", "find_neighbours", "sizes_of"]
+__all__ = [
+    "Neighbours",
+    "Reach",
+    "ReachTable",
+    "Sizes",
+    "arms_of",
+    "find_neighbours",
+    "reach_table",
+    "sizes_of",
+    "within",
+]
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -35,7 +44,10 @@ class Neighbours(NamedTuple):
 
     def taken(self, chosen: NDArray[np.bool_] | Integers) -> "Neighbours":
         """Some of the pairs."""
-        return Neighbours(self.pairs[chosen], self.image[chosen], self.gap[chosen])
+        rows = np.flatnonzero(chosen) if chosen.dtype == np.bool_ else chosen
+        if len(rows) == len(self.gap) and chosen.dtype == np.bool_:
+            return self
+        return Neighbours(self.pairs[rows], self.image[rows], self.gap[rows])
 
 
 class Sizes(NamedTuple):
@@ -44,6 +56,23 @@ class Sizes(NamedTuple):
     of_grain: Integers  # class of each grain, 0 for the smallest
     least: Floats  # smallest and largest radius in each
     most: Floats
+
+
+class ReachTable(NamedTuple):
+    """Largest gaps of bridges, between classes of sizes and at walls."""
+
+    sizes: Sizes
+    gaps: Floats  # (classes, classes), [m]
+    at_wall: float  # 0 without walls
+
+    @property
+    def most(self) -> float:
+        """The largest of all."""
+        return max(float(self.gaps.max()), self.at_wall)
+
+    def covers(self, other: "ReachTable") -> bool:
+        """Whether no gap of another one is larger."""
+        return bool(np.all(self.gaps >= other.gaps)) and self.at_wall >= other.at_wall
 
 
 class Frame(NamedTuple):
@@ -80,15 +109,40 @@ def sizes_of(radii: Floats) -> Sizes:
     return Sizes(of_grain.astype(np.int64), least, most)
 
 
-def find_neighbours(heap: Packing, reach: Reach) -> Neighbours:
-    """All pairs within the reach of their classes.
+def reach_table(heap: Packing, reach: Reach) -> ReachTable:
+    """Reach of bridges in a heap.
 
     Parameters
     ----------
     heap : Packing
         The grains.
     reach : callable
-        Largest gap of a bridge, [m], at arrays of two radii, [m].
+        Largest gap of a bridge, [m], at arrays of two radii, [m]; it does not fall with either.
+
+    Returns
+    -------
+    ReachTable
+    """
+    sizes = sizes_of(heap.radii)
+    gaps = np.asarray(reach(*np.meshgrid(sizes.most, sizes.most, indexing="ij")))
+    at_wall = float(np.max(reach(sizes.most, np.full(len(sizes.most), np.inf)))) if heap.walls else 0.0
+    return ReachTable(sizes, gaps, at_wall)
+
+
+def find_neighbours(heap: Packing, reach: Reach) -> Neighbours:
+    """All pairs within the reach of their classes; arguments as for :func:`reach_table`, the rest of :func:`within`."""
+    return within(heap, reach_table(heap, reach))
+
+
+def within(heap: Packing, reach: ReachTable) -> Neighbours:
+    """All pairs within the reach of their classes.
+
+    Parameters
+    ----------
+    heap : Packing
+        The grains.
+    reach : ReachTable
+        Largest gaps.
 
     Returns
     -------
@@ -99,10 +153,8 @@ def find_neighbours(heap: Packing, reach: Reach) -> Neighbours:
     ValueError
         Where the cell is smaller than twice the reach, so that two images of a grain could be partners of one.
     """
-    sizes = sizes_of(heap.radii)
-    first, second = np.meshgrid(sizes.most, sizes.most, indexing="ij")
-    gaps = np.asarray(reach(first, second))
-    distances = first + second + gaps
+    sizes, gaps = reach.sizes, reach.gaps
+    distances = sizes.most[:, None] + sizes.most + gaps
     frame = _frame_of(heap)
     _refuse_small_cell(frame, float(distances.max()))
     members = [np.flatnonzero(sizes.of_grain == k) for k in range(len(sizes.most))]
@@ -112,35 +164,36 @@ def find_neighbours(heap: Packing, reach: Reach) -> Neighbours:
         for a in range(b + 1):
             own = bins.grains if a == b else members[a]
             found.append(_pairs_of(frame, heap.radii, own, bins, a == b, float(gaps[a, b])))
-    found.extend(_at_wall(heap, k, reach) for k in range(len(heap.walls)))
-    pairs, image, gap = (np.concatenate(parts) for parts in zip(*found, strict=True))
+    found.extend(_at_wall(heap, k, reach.at_wall) for k in range(len(heap.walls)))
+    pairs, image, gap = found[0] if len(found) == 1 else (np.concatenate(parts) for parts in zip(*found, strict=True))
     order = np.argsort(pairs[:, 0].astype(np.int64) * (heap.count + len(heap.walls)) + pairs[:, 1])
     return Neighbours(pairs[order], image[order], gap[order])
 
 
-def branches_of(heap: Packing, neighbours: Neighbours) -> Floats:
-    """Vector from the first centre to the second, or to the nearest point of the wall, (n, 3), [m]."""
-    branches = np.empty((len(neighbours.gap), 3))
+def arms_of(heap: Packing, neighbours: Neighbours) -> tuple[Floats, Floats]:
+    """Unit vectors from the first centre to the second, or to the nearest point of the wall, (n, 3), and distances."""
+    normals, lengths = np.empty((len(neighbours.gap), 3)), np.empty(len(neighbours.gap))
     walls = np.array([[*wall.point, *wall.normal] for wall in heap.walls]).reshape(-1, 6)
     in_chunks(
-        _branch_range, len(branches), _CHUNK,
-        heap.positions, heap.box, walls, neighbours.pairs, neighbours.image, branches,
+        _arm_range, len(lengths), _CHUNK,
+        heap.positions, heap.box, walls, neighbours.pairs, neighbours.image, normals, lengths,
     )  # fmt: skip
-    return branches
+    return normals, lengths
 
 
 @kernel
-def _branch_range(
+def _arm_range(
     positions: Floats,
     cell: Floats,
     walls: Floats,
     pairs: NDArray[np.int32],
     image: NDArray[np.int32],
-    branches: Floats,
+    normals: Floats,
+    lengths: Floats,
     start: int,
     stop: int,
 ) -> None:
-    """Branch vectors from start to stop."""
+    """Directions and distances from start to stop."""
     for row in range(start, stop):
         i, j = pairs[row, 0], pairs[row, 1]
         if j < positions.shape[0]:
@@ -148,14 +201,18 @@ def _branch_range(
                 shift = 0.0
                 for m in range(3):
                     shift += image[row, m] * cell[m, k]
-                branches[row, k] = positions[j, k] - positions[i, k] + shift
+                normals[row, k] = positions[j, k] - positions[i, k] + shift
         else:
             wall = walls[j - positions.shape[0]]
             height = 0.0
             for k in range(3):
                 height += (positions[i, k] - wall[k]) * wall[3 + k]
             for k in range(3):
-                branches[row, k] = -height * wall[3 + k]
+                normals[row, k] = -height * wall[3 + k]
+        length = math.sqrt(normals[row, 0] ** 2 + normals[row, 1] ** 2 + normals[row, 2] ** 2)
+        lengths[row] = length
+        for k in range(3):
+            normals[row, k] /= length
 
 
 def _frame_of(heap: Packing) -> Frame:
@@ -169,7 +226,12 @@ def _frame_of(heap: Packing) -> Frame:
     width = span / np.linalg.norm(inverse, axis=0)
     positions = heap.positions - wraps @ cell
     return Frame(
-        np.ascontiguousarray(positions), (fractions - wraps - low) / span, wraps.astype(np.int64), cell, width, heap.periodic
+        np.ascontiguousarray(positions),
+        (fractions - wraps - low) / span,
+        wraps.astype(np.int64),
+        cell,
+        width,
+        heap.periodic,
     )
 
 
@@ -177,8 +239,8 @@ def _refuse_small_cell(frame: Frame, distance: float) -> None:
     for k in np.flatnonzero(frame.periodic):
         if frame.width[k] < 2.0 * distance:
             raise ValueError(
-                f"cell: its width of {frame.width[k]:.6g} m along direction {k} is less than twice the reach of a bridge "
-                f"between centres, {2.0 * distance:.6g} m; put several cells side by side with Packing.repeated"
+                f"cell: its width of {frame.width[k]:.6g} m along direction {k} is less than twice the reach of a "
+                f"bridge between centres, {2.0 * distance:.6g} m; put several side by side with Packing.repeated"
             )
 
 
@@ -279,11 +341,10 @@ def _search_range(
             counts[row] = number
 
 
-def _at_wall(heap: Packing, k: int, reach: Reach) -> tuple[NDArray[np.int32], NDArray[np.int32], Floats]:
+def _at_wall(heap: Packing, k: int, most: float) -> tuple[NDArray[np.int32], NDArray[np.int32], Floats]:
     """Grains near a wall."""
     wall = heap.walls[k]
     gap = (heap.positions - wall.point) @ wall.normal - heap.radii
-    most = float(np.max(reach(np.array([heap.radii.max()]), np.array([np.inf]))))
     near = np.flatnonzero(gap <= most)
     pairs = np.column_stack([near, np.full(len(near), heap.count + k)]).astype(np.int32)
     return pairs, np.zeros((len(near), 3), np.int32), gap[near]
