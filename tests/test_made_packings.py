@@ -134,7 +134,7 @@ def test_random_heaps_refused():
     ):
         with pytest.raises(ValueError, match=told):
             pl.random_packing(*arguments)
-    with pytest.raises(ValueError, match="friction: -1.0 is not >= 0"):
+    with pytest.raises(ValueError, match=r"friction: -1.0 is not >= 0"):
         pl.random_packing(100, R, friction=-1.0)
 
 

@@ -2,7 +2,7 @@
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
@@ -41,9 +41,7 @@ def packing(
         typer.Argument(help="Grains of another program: dump, data, YADE text, VTK, CSV; if not given, made ones."),
     ] = None,
     unit: Annotated[str | None, _text("Length that the file's 1 means: mm.", "UNIT")] = None,
-    radius: Annotated[
-        str | None, _text("Of all grains, where the file has none, or of made ones: 50um.", "LENGTH")
-    ] = None,
+    radius: Annotated[str | None, _text("Of grains that a file has none for, or of made ones: 50um.", "LENGTH")] = None,
     made: Annotated[str, _text("Grains without a file: random, sc, bcc, fcc or hcp.", "KIND")] = "random",
     count: Annotated[int, typer.Option(help="Grains of a made random heap.")] = 500,
     contact_angle: Annotated[str, _text("Contact angle: 20 or 20deg, 0.35rad.", "ANGLE")] = "0",
@@ -57,7 +55,9 @@ def packing(
     water_content: Annotated[str | None, _text("or liquid over the whole volume, 1%,", "FRACTION")] = None,
     mass_ratio: Annotated[str | None, _text("or mass of liquid over that of grains, 1%.", "FRACTION")] = None,
     grain_density: Annotated[str | None, _text("For masses: 2500kg/m^3.", "DENSITY")] = None,
-    path: Annotated[str, _text("How that state is reached: drying or wetting.", "PATH")] = "drying",
+    path: Annotated[
+        Literal["drying", "wetting"], _text("How that state is reached: drying or wetting.", "PATH")
+    ] = "drying",
     film: Annotated[str | None, _text("Gap up to which grains count as touching: 10nm.", "LENGTH")] = None,
     condensation: Annotated[bool, typer.Option(help="Whether bridges also form by condensation.")] = True,
     liquid: Annotated[str | None, _text("Liquid: ethanol; if not given, water.", "NAME")] = None,
@@ -65,7 +65,7 @@ def packing(
     surface_tension: Annotated[str | None, _text("Measured: 72.8mN/m.", "TENSION")] = None,
     friction_angle: Annotated[str | None, _text("Of the dry heap, for its cohesion: 30.", "ANGLE")] = None,
     stress: Annotated[bool, typer.Option("--stress", help="Print the whole stress and its shares.")] = False,
-    method: Annotated[str, _text("auto, exact or table.", "METHOD")] = "auto",
+    method: Annotated[Literal["auto", "exact", "table"], _text("auto, exact or table.", "METHOD")] = "auto",
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON, in SI units.")] = False,
     as_csv: Annotated[bool, typer.Option("--csv", help="Print CSV, in SI units.")] = False,
     plot: Annotated[Path | None, _text("Draw the curves, or grains and bridges: r.svg, .png or .pdf.", "FILE")] = None,
@@ -156,7 +156,7 @@ def _tell_curves(
     points: int,
     film: float,
     condensation: bool,
-    method: str,
+    method: Literal["auto", "exact", "table"],
     form: str,
     plot: Path | None,
     title: str,

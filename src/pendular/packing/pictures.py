@@ -101,8 +101,8 @@ def _mark_limit(left: Axes, below: Axes, right: Axes, curves: Retention, factor:
         "offset points", color=INK, fontsize=8.5, va="top",
     )  # fmt: skip
     right.annotate(
-        f"bridges meet\nabove {100 * at:.3g} %", (at, 0.04), (-4, 0), ("data", "axes fraction"), "offset points", color=INK,
-        fontsize=8.5, va="bottom", ha="right",
+        f"bridges meet\nabove {100 * at:.3g} %", (at, 0.04), (-4, 0), ("data", "axes fraction"),
+        "offset points", color=INK, fontsize=8.5, va="bottom", ha="right",
     )  # fmt: skip
 
 

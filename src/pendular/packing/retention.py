@@ -241,6 +241,11 @@ class _Follower:
             walk.values[name][k] = getattr(w.meetings, share) if share else getattr(w, name)
 
 
+def _name_of(starts_wet: bool, turn: float) -> str:
+    """Name of a scanning curve."""
+    return f"{'wetting' if starts_wet else 'drying'} from {show(turn, 'Pa', 4)}"
+
+
 def _new_walk(name: str, starts_wet: bool, turns_at: float, count: int) -> Walk:
     values = {quantity: np.full(count, np.nan) for quantity in QUANTITIES}
     return Walk(name, starts_wet, turns_at, values, np.full((count, 3, 3), np.nan))
