@@ -130,9 +130,24 @@ def test_random_heaps_refused():
         ((10, R), "count: 10.0 is not >= 50"),
         ((60, np.ones(3)), r"radii: an array of shape \(3,\) is not one radius for each of 60"),
         ((60, -R), "radii: -5e-05 m is not > 0"),
-        ((100, np.concatenate([np.ones(99), [30.0]])), "too small for the largest radius of 30 m; take more grains"),
+        ((100, np.concatenate([np.ones(99), [30.0]])), r"too small for the largest radius of 30 m; take more grains"),
     ):
         with pytest.raises(ValueError, match=told):
             pl.random_packing(*arguments)
-    with pytest.raises(ValueError, match="friction: -1.0 is not >= 0"):
+    with pytest.raises(ValueError, match=r"friction: -1.0 is not >= 0"):
         pl.random_packing(100, R, friction=-1.0)
+
+
+def test_loosened_heaps_touch_nowhere():
+    seed = 23
+    rng = np.random.default_rng(seed)
+    print("seed", seed)
+    for kind in LATTICES:
+        strain = float(rng.uniform(0.001, 0.1))
+        heap = pl.loosened(pl.lattice_packing(kind, 4, R).repeated((1, 2, 1)), strain, seed=seed)
+        assert heap.count == 128 * LATTICES[kind][0]
+        gaps = contacts(heap, 4.1 * strain * R).gap
+        assert 0.0 < gaps.min() < 0.5 * strain * R
+        assert len(gaps) >= heap.count * LATTICES[kind][1] // 2
+    with pytest.raises(ValueError, match=r"strain: 2.0 is not in \[0, 1\]"):
+        pl.loosened(heap, 2.0)

@@ -34,6 +34,7 @@ from .packing.heap import Packing as Packing
 from .packing.heap import Wall as Wall
 from .packing.lattice import lattice_packing as lattice_packing
 from .packing.limit import pendular_limit as pendular_limit
+from .packing.loosening import loosened as loosened
 from .packing.precision import centre_noise as centre_noise
 from .packing.random_packing import random_packing as random_packing
 from .packing.retention import retention as retention

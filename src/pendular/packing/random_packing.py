@@ -18,8 +18,8 @@ Floats = NDArray[np.float64]
 _FEWEST = 50  # grains that do not meet their own images
 _FIRST_FRACTION = 0.3  # of solid, where growth starts
 _FIRST_GROWTH = 0.01  # of the radii in a step
-# Without friction and with it: mean overlap of contacts over the mean radius, at the end; part of the overlap that a step
-# back takes; part of the load left after it. Contacts that slide let a heap go sooner.
+# Without friction and with it: mean overlap of contacts over the mean radius, at the end; part of the overlap that a
+# step back takes; part of the load left after it. Contacts that slide let a heap go sooner.
 _SMOOTH, _ROUGH = (2e-6, 0.7, 0.5), (1e-4, 0.4, 0.65)
 _LOAD = 0.02  # overlaps a grain that are left of a step of growth where grains found room
 _SKIN = 0.3  # of the median radius
