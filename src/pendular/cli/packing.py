@@ -175,7 +175,8 @@ def _tell_curves(
     if points < 2:
         raise ValueError(f"points: {points} is not >= 2")
     setting = setting_of(heap, angle, liquid, film, condensation, method)
-    with Progress(console=Console(stderr=True), transient=True) as bar:
+    console = Console(stderr=True)
+    with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
         task = bar.add_task("suctions", total=1.0)
         curves = retention_of(
             setting, np.geomspace(low, high, points), None, lambda share: bar.update(task, completed=share)
