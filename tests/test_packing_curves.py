@@ -7,6 +7,7 @@ import pytest
 
 import pendular as pl
 from pendular.cli import main
+from pendular.packing.blocks import wet_in_blocks
 from pendular.packing.pictures import draw_heap
 from pendular.packing.rendering import image_of, view_of
 from pendular.packing.retention import QUANTITIES, retention_of
@@ -179,3 +180,25 @@ def test_grains_and_bridges_are_drawn_to_scale():
     exact = pl.bridge(pl.Pair(1.0, 0.3), 0.0, suction=2.0, liquid=UNIT).neck_radius
     assert neck[-1] == pytest.approx(exact, abs=0.02)
     assert len(draw_heap(w, "two grains").axes) == 1
+
+
+# --- blocks ---
+
+
+@pytest.mark.parametrize("path", ["drying", "wetting"])
+@pytest.mark.parametrize("blocks", [(1, 1, 1), (2, 1, 3), (3, 3, 2)])
+def test_blocks_add_up_to_the_heap(path, blocks):
+    heap = loose(count=700, density=0.5)
+    w = pl.wet(heap, 0.3, suction=2.0, liquid=UNIT, path=path)
+    total = wet_in_blocks(heap, 0.3, suction=2.0, liquid=UNIT, blocks=blocks, path=path)
+    assert (total.grains, total.bridges) == (heap.count, len(w.bridges))
+    assert total.coordination == pytest.approx(w.coordination, rel=1e-14)
+    for name in ("saturation", "water_content", "porosity", "interface_area", "chi"):
+        assert getattr(total, name) == pytest.approx(getattr(w, name), rel=1e-11), name
+    np.testing.assert_allclose(total.stress, w.stress, atol=1e-11 * abs(w.stress).max())
+    assert total.meeting_grains == w.meetings.grains > 0.0
+
+
+def test_blocks_that_are_too_narrow_are_refused():
+    with pytest.raises(ValueError, match="blocks: 5 along direction 0 are narrower than twice their halo"):
+        wet_in_blocks(loose(count=60), 0.3, suction=2.0, liquid=UNIT, blocks=(5, 1, 1))
