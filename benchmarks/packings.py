@@ -1,8 +1,8 @@
 """Cost of a heap: ``python -m benchmarks.packings [one|curves|blocks]``; without a word all three.
 
-``one``: a million grains with three million bridges at one suction with all that is told of them, then at a further one.
-``curves``: their retention, 40 suctions both ways. ``blocks``: one and ten million grains by two Dask workers, in blocks
-that are made where they are needed.
+``one``: a million grains with three million bridges at one suction with all that is told of them, then at a further
+one. ``curves``: their retention, 40 suctions both ways. ``blocks``: one and ten million grains by two Dask workers, in
+blocks that are made where they are needed.
 """
 
 import math

@@ -113,8 +113,8 @@ def geometry_of(setting: Setting, near: Neighbours, answers: Answers) -> Floats:
     out = np.empty((len(near.gap), COLUMNS))
     in_chunks(
         shape_range, len(out), _CHUNK,
-        near.pairs, near.gap, setting.radii, setting.kind, setting.angles, answers.suction, answers.force,
-        answers.volume, setting.liquid.surface_tension, out,
+        near.pairs, near.gap, setting.radii, setting.kind, np.cos(setting.angles), np.sin(setting.angles),
+        answers.suction, answers.force, answers.volume, setting.liquid.surface_tension, out,
     )  # fmt: skip
     unsure = np.flatnonzero(~_is_sure(setting, near, answers.suction))
     if unsure.size:
@@ -218,6 +218,7 @@ def _table_range(
     stop: int,
 ) -> None:
     """Force, volume, suction and potential of the rows from start to stop."""
+    cosines, sines = (math.cos(angle1), math.cos(angle2)), (math.sin(angle1), math.sin(angle2))
     for number in range(start, stop):
         row = rows[number] if rows.size else number
         i, j = pairs[row, 0], pairs[row, 1]
@@ -238,7 +239,7 @@ def _table_range(
         forces[row], volumes[row] = force, volume
         if suctions.size:
             suctions[row] = suction
-        potentials[row] = potential_of(gaps[row], suction, force, volume, radii[i], radii[j], angle1, angle2, tension)
+        potentials[row] = potential_of(gaps[row], suction, force, volume, radii[i], radii[j], cosines, sines, tension)
 
 
 def _table_over(angles: tuple[float, float], control: ControlName, span: tuple[float, float], ratio: float) -> Table:

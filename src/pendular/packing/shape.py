@@ -46,41 +46,49 @@ class Cap(NamedTuple):
 
 
 @kernel
-def cap_at(force: float, curvature: float, radius: float, angle: float) -> Cap:
-    """Cap from λ = F/(2πγ), H = Δp/γ, and the solid's radius and contact angle."""
-    sine = math.sin(angle)
+def cap_at(force: float, curvature: float, radius: float, cosine: float, sine: float) -> Cap:
+    """Cap from λ = F/(2πγ), H = Δp/γ, the solid's radius, and cosine and sine of its contact angle."""
     if math.isinf(radius):
         # λ = (H/2) r² + r sin θ
         circle = 2.0 * force / (sine + math.sqrt(sine * sine + 2.0 * curvature * force))
-        return plane_cap(math.pi * circle * circle, angle)
-    along = 0.5 * curvature * radius + math.cos(angle)
-    size = math.hypot(along, sine)
+        return plane_cap(math.pi * circle * circle, cosine)
+    along = 0.5 * curvature * radius + cosine
+    size = math.sqrt(along * along + sine * sine)
     share = force / (radius * size)
     sine_psi, cosine_psi = sine / size, along / size
     root = math.sqrt(max(sine_psi * sine_psi + 4.0 * share * (cosine_psi - share), 0.0))
-    filling = math.atan2(2.0 * share, sine_psi + root)
-    return cap_of(filling, curvature, radius, angle)
+    rise, run = 2.0 * share, sine_psi + root
+    length = math.sqrt(rise * rise + run * run)
+    return cap_of(math.atan2(rise, run), run / length, rise / length, curvature, radius, cosine, sine)
 
 
 @kernel
-def plane_cap(area: float, angle: float) -> Cap:
+def plane_cap(area: float, cosine: float) -> Cap:
     """Disc that a bridge wets of a plane."""
-    return Cap(0.0, math.sqrt(area / math.pi), area, 0.0, -area * math.cos(angle))
+    return Cap(0.0, math.sqrt(area / math.pi), area, 0.0, -area * cosine)
 
 
 @kernel
-def cap_of(filling: float, curvature: float, radius: float, angle: float) -> Cap:
-    """Cap of a sphere from its half-filling angle."""
-    sine = math.sin(filling)
-    height = 2.0 * math.sin(0.5 * filling) ** 2  # over R
-    area = 2.0 * math.pi * radius * radius * height
+def cap_of(
+    filling: float,
+    cosine_filling: float,
+    sine_filling: float,
+    curvature: float,
+    radius: float,
+    cosine: float,
+    sine: float,
+) -> Cap:
+    """Cap of a sphere from its half-filling angle, given with cosine and sine as is its contact angle."""
+    square = sine_filling * sine_filling
+    height = square / (1.0 + cosine_filling) if cosine_filling > 0.0 else 1.0 - cosine_filling  # over R
+    sine_of_sum = sine_filling * cosine + cosine_filling * sine
+    cosine_of_sum = cosine_filling * cosine - sine_filling * sine
     # Pressure on the cap, H∫ n ⊗ (x - pole) dA, and the line, ∮ t ⊗ (x - pole) dl.
-    pressed = math.pi * curvature * radius**3 * height * height
-    line = math.pi * (radius * sine) ** 2
-    axial = pressed * (2.0 * height / 3.0 - 1.0)
-    axial -= 2.0 * math.pi * radius * radius * sine * height * math.sin(filling + angle)
-    across = pressed * (1.0 - height / 3.0) - line * math.cos(filling + angle)
-    return Cap(filling, radius * sine, area, axial, across)
+    unit = math.pi * radius * radius
+    pressed = unit * curvature * radius * height * height
+    axial = pressed * (2.0 * height / 3.0 - 1.0) - 2.0 * unit * sine_filling * height * sine_of_sum
+    across = pressed * (1.0 - height / 3.0) - unit * square * cosine_of_sum
+    return Cap(filling, radius * sine_filling, 2.0 * unit * height, axial, across)
 
 
 @kernel
@@ -108,16 +116,16 @@ def potential_of(
     volume: float,
     radius1: float,
     radius2: float,
-    angle1: float,
-    angle2: float,
+    cosines: tuple[float, float],
+    sines: tuple[float, float],
     tension: float,
 ) -> float:
     """Grand potential; in an overlap it goes on with the force of contact, so that this is its rate."""
     curvature, pull = suction / tension, force / tension
-    first = cap_at(0.5 * pull / math.pi, curvature, radius1, angle1)
-    second = cap_at(0.5 * pull / math.pi, curvature, radius2, angle2)
+    first = cap_at(0.5 * pull / math.pi, curvature, radius1, cosines[0], sines[0])
+    second = cap_at(0.5 * pull / math.pi, curvature, radius2, cosines[1], sines[1])
     n11, n33 = meniscus_of(max(gap, 0.0), curvature, pull, volume, first, second)
-    wetted = math.cos(angle1) * first.area + math.cos(angle2) * second.area
+    wetted = cosines[0] * first.area + cosines[1] * second.area
     return tension * (2.0 * n11 + n33 - wetted + curvature * volume + pull * min(gap, 0.0))
 
 
@@ -127,7 +135,8 @@ def shape_range(
     gaps: Floats,
     radii: Floats,
     kind: NDArray[np.int32],
-    angles: Floats,
+    cosines: Floats,
+    sines: Floats,
     suctions: Floats,
     forces: Floats,
     volumes: Floats,
@@ -140,8 +149,8 @@ def shape_range(
     for row in range(start, stop):
         i, j = pairs[row, 0], pairs[row, 1]
         curvature, pull = element(suctions, row) / tension, forces[row] / tension
-        first = cap_at(0.5 * pull / math.pi, curvature, radii[i], angles[kind[i]])
-        second = cap_at(0.5 * pull / math.pi, curvature, radii[j], angles[kind[j]])
+        first = cap_at(0.5 * pull / math.pi, curvature, radii[i], cosines[kind[i]], sines[kind[i]])
+        second = cap_at(0.5 * pull / math.pi, curvature, radii[j], cosines[kind[j]], sines[kind[j]])
         n11, n33 = meniscus_of(max(gaps[row], 0.0), curvature, pull, volumes[row], first, second)
         out[row, AREA] = 2.0 * n11 + n33
         out[row, FILLING_1], out[row, FILLING_2] = first.filling, second.filling

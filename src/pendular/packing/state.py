@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._check import as_path
+from .._jit import kernel
 from .neighbours import Neighbours
 
 __all__ = ["Book", "Standing", "State", "load_state", "standing_of"]
@@ -23,7 +24,7 @@ _ARRAYS = ("pairs", "volume", "suction", "unheld", "bodies")
 class State:
     """Bridges of a heap, as :func:`wet` takes them up again by ``start=``."""
 
-    pairs: NDArray[np.int64]  # (n, 2), ascending; a number from the grains on is a wall
+    pairs: NDArray[np.int32]  # (n, 2), ascending; a number from the grains on is a wall
     volume: Floats  # (n,), [m³]
     suction: Floats  # (n,), [Pa]
     unheld: float  # liquid beside the bridges, [m³]
@@ -64,15 +65,24 @@ class Standing(NamedTuple):
 
 def standing_of(state: State, neighbours: Neighbours) -> Standing:
     """Find the bridges of a state among pairs; both are in the order of their indices."""
-    old = state.pairs[:, 0] * np.int64(state.bodies) + state.pairs[:, 1]
-    new = neighbours.pairs[:, 0] * np.int64(state.bodies) + neighbours.pairs[:, 1]
-    if old.size == 0 or new.size == 0:
-        return Standing(np.full(new.size, -1), np.arange(old.size))
-    place = np.minimum(np.searchsorted(old, new), old.size - 1)
-    bridge = np.where(old[place] == new, place, -1)
-    is_there = np.zeros(old.size, bool)
-    is_there[bridge[bridge >= 0]] = True
+    bridge, is_there = np.full(len(neighbours.gap), -1), np.zeros(len(state.volume), bool)
+    _match(state.pairs, neighbours.pairs, bridge, is_there)
     return Standing(bridge, np.flatnonzero(~is_there))
+
+
+@kernel
+def _match(
+    old: NDArray[np.integer], new: NDArray[np.integer], bridge: NDArray[np.int64], is_there: NDArray[np.bool_]
+) -> None:
+    """Number in the old list of each pair of the new one, and whether an old one is there; both are in order."""
+    k = 0
+    for row in range(new.shape[0]):
+        i, j = new[row, 0], new[row, 1]
+        while k < old.shape[0] and (old[k, 0] < i or (old[k, 0] == i and old[k, 1] < j)):
+            k += 1
+        if k < old.shape[0] and old[k, 0] == i and old[k, 1] == j:
+            bridge[row] = k
+            is_there[k] = True
 
 
 def load_state(path: str | PathLike[str]) -> State:
@@ -100,7 +110,7 @@ def load_state(path: str | PathLike[str]) -> State:
     except (OSError, ValueError, KeyError, TypeError, zipfile.BadZipFile) as error:
         raise ValueError(f"path: {str(file)!r} is not a state of a heap ({error})") from error
     return State(
-        arrays["pairs"].astype(np.int64),
+        arrays["pairs"].astype(np.int32),
         arrays["volume"],
         arrays["suction"],
         float(arrays["unheld"]),

@@ -12,6 +12,7 @@ what the liquid carries, what the meniscus carries, and what the pull at the wet
 the grains.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -105,9 +106,18 @@ def _moment_range(
             body = pairs[row, side]
             angle = angles[kind[body]]
             if np.isinf(radii[body]):
-                cap = plane_cap(shape[row, WETTED_1 + side], angle)
+                cap = plane_cap(shape[row, WETTED_1 + side], math.cos(angle))
             else:
-                cap = cap_of(shape[row, FILLING_1 + side], curvature, radii[body], angle)
+                filling = shape[row, FILLING_1 + side]
+                cap = cap_of(
+                    filling,
+                    math.cos(filling),
+                    math.sin(filling),
+                    curvature,
+                    radii[body],
+                    math.cos(angle),
+                    math.sin(angle),
+                )
                 arm += radii[body]
             axial += cap.axial_moment
             across += cap.across_moment

@@ -65,7 +65,7 @@ def undrained_of(setting: Setting, volume: float, start: State | bool, rule: Rul
     stands = _stands(setting, pairs, held, is_new)  # a pair too far apart for a new bridge never had one
     pairs, held, is_new = pairs.taken(stands), held[stands], is_new[stands]
     supplied, released = float(np.sum(held[is_new])), 0.0
-    ends, liquid = np.empty((0, 2), np.int64), np.empty(0)
+    ends, liquid = np.empty((0, 2), np.int32), np.empty(0)
     if isinstance(start, State):
         ends, liquid = start.pairs[standing.gone], start.volume[standing.gone]
     while True:
@@ -75,7 +75,7 @@ def undrained_of(setting: Setting, volume: float, start: State | bool, rule: Rul
             unheld += _share(setting.heap.count, pairs, held, ends, liquid)
         answers = answers_at(setting, pairs, "volume", held)
         stands = answers.exists
-        ends, liquid = pairs.pairs[~stands].astype(np.int64), held[~stands]
+        ends, liquid = pairs.pairs[~stands], held[~stands]
         pairs, held, answers = pairs.taken(stands), held[stands], answers.taken(stands)
         if stands.all():
             return Undrained(pairs, answers._replace(volume=held), supplied, released, unheld)

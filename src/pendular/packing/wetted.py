@@ -247,7 +247,7 @@ class Wet:
     def state(self) -> State:
         """What the next step takes up."""
         return State(
-            self.bridges.pairs.astype(np.int64),
+            self.bridges.pairs,
             self.bridges.volume,
             self.bridges.suction,
             self.unheld,
