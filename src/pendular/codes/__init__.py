@@ -1,1 +1,1 @@
-"""Bridges inside other people's particle codes: what those codes read, written and checked."""
+"""Files of other programs, read and written."""

@@ -20,10 +20,12 @@ if TYPE_CHECKING:
 __all__ = [
     "SEPARATIONS",
     "Question",
+    "describe_liquid",
     "in_terms_of_options",
     "read_contact_angle",
     "read_filling_angle",
     "read_form",
+    "read_liquid",
     "read_question",
     "sweep_length",
 ]
@@ -170,13 +172,13 @@ def read_question(
     second = contact_angle if contact_angle2 is None else contact_angle2
     degrees = read_contact_angle("contact-angle", contact_angle), read_contact_angle("contact-angle2", second)
     control = _control(suction, volume, humidity)
-    wetting = _liquid(liquid, temperature, surface_tension, molar_volume, is_humid=humidity is not None)
+    wetting = read_liquid(liquid, temperature, surface_tension, molar_volume, is_humid=humidity is not None)
     return Question(
         pair=Pair(radii, (math.radians(degrees[0]), math.radians(degrees[1]))),
         liquid=wetting,
         control=control,
         title=_describe_solids(radii, degrees),
-        subtitle=f"{_describe_liquid(wetting)}  ·  {_describe_control(control)}",
+        subtitle=f"{describe_liquid(wetting)}  ·  {_describe_control(control)}",
         form=form,
         picture=plot,
     )
@@ -305,10 +307,10 @@ def _control(suction: str | None, volume: str | None, humidity: str | None) -> d
     return control
 
 
-def _liquid(
+def read_liquid(
     name: str | None, temperature: str | None, surface_tension: str | None, molar_volume: str | None, *, is_humid: bool
 ) -> "Liquid":
-    """Liquid by its name, with measured numbers in the place of known ones; or of measured numbers alone."""
+    """Return a liquid by its name, with measured numbers in the place of known ones; or of measured numbers alone."""
     from ..ask.liquid import Liquid
 
     tension = None if surface_tension is None else read("surface-tension", surface_tension, "N/m", "72.8mN/m")
@@ -359,7 +361,8 @@ def _describe_solids(radii: tuple[float, float], degrees: tuple[float, float]) -
     return f"{solids}, {angles}"
 
 
-def _describe_liquid(liquid: "Liquid") -> str:
+def describe_liquid(liquid: "Liquid") -> str:
+    """Liquid in a few words."""
     tension = show(liquid.surface_tension, "N/m", 4)
     if liquid.temperature is None:
         return f"surface tension {tension}"

@@ -1,1 +1,1 @@
-"""Heaps of grains, and the liquid between them."""
+"""Heaps of grains with bridges: which pairs hold one, how much water they hold, and what stress they carry."""

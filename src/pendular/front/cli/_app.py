@@ -30,6 +30,7 @@ __all__ = [
     "print_page",
     "question_command",
     "save_picture",
+    "warnings_in_one_line",
 ]
 
 _NOT_WRITTEN, _BAD_INPUT, _INTERRUPTED = 1, 2, 130
@@ -146,7 +147,7 @@ def question_command(
 
         def command(**given: Any) -> None:
             options = {option: given.pop(option) for option in shared}
-            with _warnings_in_one_line(), compiling_shown():
+            with warnings_in_one_line(), compiling_shown():
                 answer(options if has_other_uses else asked(options), **given)
 
         parameters = [p.replace(kind=p.KEYWORD_ONLY) for p in (*shared.values(), *own)]
@@ -194,14 +195,15 @@ def need_extra(extra: str, *packages: str) -> None:
 
 
 @contextmanager
-def _warnings_in_one_line() -> Iterator[None]:
+def warnings_in_one_line() -> Iterator[None]:
     """Print each warning of the library once, and no warning of any other."""
     from ...ask.face import ConvergenceWarning
     from ...ask.liquid import KelvinWarning
+    from ...packing.setting import PackingWarning
 
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("ignore")
-        for category in (KelvinWarning, ConvergenceWarning):
+        for category in (KelvinWarning, ConvergenceWarning, PackingWarning):
             warnings.simplefilter("always", category)
         yield
     for message in dict.fromkeys(str(warning.message) for warning in caught):
