@@ -11,11 +11,13 @@ from shutil import copy
 import pytest
 
 import pendular
+from pendular.ground import stamp
 from pendular.ground import cache as _cache
 
 PACKAGE = Path(pendular.__file__).parent
 OWN_KERNEL = """
-from pendular.ground.compile import element, kernel
+from pendular.ground.compile import compiled, kernel
+from pendular.ground.rows import element
 from factor import FACTOR
 import numpy as np
 
@@ -23,15 +25,19 @@ import numpy as np
 def scaled(operand, i):
     return FACTOR * element(operand, i)
 
+scaled = compiled(scaled)
 print(scaled(np.array([1.0, 4.0]), 1), sum(scaled.stats.cache_hits.values()))
 """
 ALONE = """
 import numpy as np
+from pendular.ground.compile import compiled
 from pendular.rooms.law import force
+force = compiled(force)
 print(force(np.array([1.0, 4.0]), 1), sum(force.stats.cache_hits.values()))
 """
 LAW = """
-from .._jit import element, kernel
+from ..ground.compile import kernel
+from ..ground.rows import element
 from .constants import (  # as the laws have them
     FACTOR,
 )
@@ -154,8 +160,9 @@ def small_package(tmp_path):
     """The compile decorator with one law in another folder, and a script that asks it."""
     package = tmp_path / "pendular"
     (package / "rooms").mkdir(parents=True)
-    for name in ("_jit.py", "_cache.py"):
-        copy(PACKAGE / name, package)
+    (package / "ground").mkdir()
+    for file in (PACKAGE / "ground").glob("*.py"):
+        copy(file, package / "ground")
     (package / "__init__.py").touch()
     (package / "rooms" / "__init__.py").touch()
     (package / "rooms" / "constants.py").write_text("FACTOR = 2.0\n")
@@ -179,7 +186,7 @@ def changed_in_silence(path, before, after):
 @pytest.mark.parametrize(
     ("file", "before", "after", "expected"),
     [
-        ("_jit.py", "return operand[min(i, operand.size - 1)]", "return operand[min(0, operand.size - 1)]", 2.0),
+        ("ground/rows.py", "return operand[min(i, operand.size - 1)]", "return operand[min(0, operand.size - 1)]", 2.0),
         ("rooms/constants.py", "2.0", "5.0", 20.0),
     ],
 )
@@ -198,7 +205,7 @@ def test_a_change_beside_it_does_not(small_package):
 
 def parsed_imports(path, modules):
     """Modules of the package that a file imports, by Python's own parser."""
-    name = _cache._module_name(path)
+    name = stamp._module_name(path)
     package = name if path.stem == "__init__" else name.rpartition(".")[0]
     for node in ast.walk(ast.parse(path.read_text())):
         if isinstance(node, ast.ImportFrom):
@@ -209,11 +216,11 @@ def parsed_imports(path, modules):
 
 
 def test_the_stamp_covers_all_that_a_kernel_can_reach():
-    modules = {_cache._module_name(path): path for path in PACKAGE.rglob("*.py")}
-    with_kernels = [path for path in modules.values() if "@kernel" in path.read_text()]
+    modules = {stamp._module_name(path): path for path in PACKAGE.rglob("*.py")}
+    with_kernels = [path for path in modules.values() if "@kernel\n" in path.read_text()]
     assert len(with_kernels) > 30
     for path in with_kernels:
-        covered = _cache._sources_of(path)
-        assert {path, PACKAGE / "_jit.py"} <= covered
+        covered = stamp._sources_of(path)
+        assert {path, PACKAGE / "ground" / "compile.py"} <= covered
         for source in covered:
             assert {modules[name] for name in parsed_imports(source, modules)} <= covered, (path, source)

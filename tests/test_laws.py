@@ -4,7 +4,6 @@ import importlib
 import inspect
 import math
 import re
-from collections import defaultdict
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +12,8 @@ import pytest
 import pendular
 from law_samples import EQUAL, assert_close, by_name, kappas, reach, sample
 from oracles.laws_mpmath import ORACLES
-from pendular.laws import _rows, arrays, laws, zhao2020
+from pendular.ground import rows as rows_of_entries
+from pendular.laws import arrays, laws, zhao2020
 
 LAWS = list(laws.values())
 FORCE = [law for law in LAWS if "force" in law.gives]
@@ -245,8 +245,9 @@ def test_exchange_of_the_solids_changes_nothing(law):
 
 @pytest.fixture(params=["few", "many"])
 def rows(request, monkeypatch):
-    """Ask laws row by row without the compiler, or by compiled loops."""
-    monkeypatch.setattr(_rows, "_PATIENCE", math.inf if request.param == "few" else -math.inf)
+    """Ask laws row by row in plain Python, or by machine code."""
+    for cost in ("_LOADING", "_PATIENCE"):
+        monkeypatch.setattr(rows_of_entries, cost, math.inf if request.param == "few" else -1.0)
 
 
 # One by one rows are asked in plain Python, whose powers differ in the last digit: 1e-14, worst measured 2e-15.
@@ -266,25 +267,12 @@ def test_arrays_equal_kernels(law, rows):
 
 
 def test_threads_change_nothing(monkeypatch):
-    monkeypatch.setattr(_rows, "_PATIENCE", -math.inf)
+    monkeypatch.setattr(rows_of_entries, "_LOADING", -1.0)
+    monkeypatch.setattr(rows_of_entries, "_PATIENCE", -1.0)
     suction = np.geomspace(10.0, 1e6, 200_000)  # several chunks
     at_once = arrays.rupture_star("zhao2020", suction, 0.3, 0.3, 1, 1)
     piecewise = [arrays.rupture_star("zhao2020", part, 0.3, 0.3, 1, 1) for part in np.split(suction, 100)]
     np.testing.assert_array_equal(at_once, np.concatenate(piecewise))
-
-
-def test_rows_that_take_long_are_compiled(monkeypatch):
-    suction, kernel = np.geomspace(10.0, 1e6, 1000), laws["asymptotic"].rupture_star
-    monkeypatch.setattr(_rows, "_spent", defaultdict(float))
-    monkeypatch.setattr(_rows, "_LEAST_COST", 0.0)
-    with monkeypatch.context() as patient:
-        patient.setattr(_rows, "_PATIENCE", math.inf)
-        patient.setattr(_rows, "_loop_over", lambda kernel: pytest.fail("compiled"))
-        plain = arrays.rupture_star("asymptotic", suction, 0.3, 0.3, 1, 1)
-    monkeypatch.setattr(_rows, "_PATIENCE", _rows._spent[kernel] + 0.002)
-    compiled = arrays.rupture_star("asymptotic", suction, 0.3, 0.3, 1, 1)
-    assert _rows._spent[kernel] > _rows._PATIENCE
-    np.testing.assert_allclose(compiled, plain, rtol=1e-14)
 
 
 def test_numbers_give_a_number():
