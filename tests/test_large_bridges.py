@@ -1,8 +1,8 @@
 """Bridges that are large for their pair, up to the largest volume of the domain, 1e4 R̄³.
 
-Oracle: a bridge without a force is a sphere of liquid. With its radius a and its centre at the distance c from that of a
-solid of radius R, the law of cosines with the contact angle says c² = a² + R² - 2aR cos θ, and the volume is that of the
-sphere less two lenses.
+Oracle: a bridge without a force is a sphere of liquid. With its radius a and its centre at the distance c from that of
+a solid of radius R, the law of cosines with the contact angle says c² = a² + R² - 2aR cos θ, and the volume is that of
+the sphere less two lenses.
 """
 
 import math
@@ -54,7 +54,7 @@ def test_a_drop_between_two_spheres_is_found():
         assert pl.rupture(pair, volume=volume, liquid=UNIT).separation > separation
 
 
-# R2, angles, V: each was lost once. The rupture distances of the last three are those of the first version of the solver.
+# R2, angles, V: each was lost once. The last three distances are those of the first version of the solver.
 LOST = [
     (1.0, 65.83, 1.58, 498.0, None),
     (1.0067, 83.14, 0.0, 985.0, None),
