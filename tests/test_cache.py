@@ -11,8 +11,8 @@ from shutil import copy
 import pytest
 
 import pendular
-from pendular.ground import stamp
 from pendular.ground import cache as _cache
+from pendular.ground import stamp
 
 PACKAGE = Path(pendular.__file__).parent
 OWN_KERNEL = """

@@ -21,6 +21,7 @@ _LARGEST_CORRECTION = 0.4  # over the step
 _LEAST_COSINE = 0.95  # of the turn of the tangent in a step
 _SMALL_CORRECTION = 1e-9
 _LEFT = 1e-16  # largest correction that would follow
+_STALLED = 0.1  # of the correction before: one that is rounding
 
 
 class Stance(NamedTuple):
@@ -111,8 +112,8 @@ def corrected(z: Four, curve: Curve, along: Four) -> tuple[Four, int, float]:
             return z, 0, way
         z = moved(z, 1.0, change)
         way += size
-        # where a contact circle is small, what is left after a step is its square by a large factor
-        if size < _SMALL_CORRECTION and size * (size / before) ** 2 < _LEFT:
+        # where a contact circle is small, what is left after a step is its square by a large factor, or rounding
+        if size < _SMALL_CORRECTION and (size * (size / before) ** 2 < _LEFT or size > _STALLED * before):
             return z, step, way
         before = size
     return z, 0, way

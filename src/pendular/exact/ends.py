@@ -204,7 +204,8 @@ def unstable_bridge(task: Task, stops_at: int, nodes: Nodes) -> tuple[Walk, bool
     walk = follow(stance, curve, task.separation, NOTHING, nodes[:0])
     if walk.event == ARRIVED:
         return walk, True
-    bottom, _ = lower_end(task, stops_at, nodes)
+    # the lower end may be a fold of overlapping solids, and the branch that leaves it lead up to a gap
+    bottom, _ = walk_from_anchor(task, -1.0, math.nan, stops_at, nodes)
     if bottom.event != FOLD or task.separation < bottom.stance.separation:
         return walk, True
     stance, curve = beyond(bottom)

@@ -11,6 +11,8 @@ from .meridian import extreme_phases, middle_of, tensor_of
 from .solids import contact_with, half_filling_angle, wetted_area
 from .stability import ladder_at
 
+_ROUNDING = 2e-15  # of places along an arc, over its size
+
 
 class State(NamedTuple):
     """An equilibrium bridge, reduced (γ = 1). All NaN where there is none."""
@@ -46,8 +48,8 @@ def neck_of(z: Four) -> tuple[float, bool]:
         return math.nan, False
     middle, curvature = middle_of(z), curvature_of(z)
     # √(1 + 2Hλ) would lose half the digits at q = 0, a cylinder
-    ratio = math.hypot(1.0 + curvature * middle.real, curvature * middle.imag)
-    return 2.0 * force / (1.0 + ratio), extreme_phases(z)[0] > 0
+    q = math.hypot(1.0 + curvature * middle.real, curvature * middle.imag)
+    return 2.0 * force / (1.0 + q), extreme_phases(z)[0] > 0
 
 
 class Description(NamedTuple):
@@ -55,7 +57,13 @@ class Description(NamedTuple):
 
     state: State
     is_bridge: bool  # contact circles on the right side of the solids, a meniscus that enters neither
-    miss: float  # largest one of the contact equations and, relative to it, of what is held
+    miss: float  # largest one of the contact equations and, relative to it, of what is held; rounding is no miss
+
+
+@kernel
+def _beyond(rounding: float, miss: float) -> float:
+    """How far a miss exceeds what rounding leaves."""
+    return max(abs(miss) - rounding, 0.0)
 
 
 @kernel
@@ -95,5 +103,13 @@ def describe(z: Four, held: Held, symmetric: bool) -> Description:
         float(ladder.at_suction if held.control == SUCTION else ladder.at_volume),
         1.0 if force >= 0.0 or held.first.curvature + held.second.curvature == 0.0 else 0.0,
     )
-    miss = max(max(abs(system.contact1.value), abs(system.contact2.value)), abs(held_back.value))
+    # a small circle is as uncertain as its place on a long arc; so is the volume of a film, a difference of large ones
+    length = math.exp(z.log_length)
+    place = _ROUNDING * (math.exp(z.log_radius) + length)
+    widest = max(first.radius, second.radius)
+    swept = 0.0 if held.control == SUCTION else 2.0 * _ROUNDING * widest * widest * length / held.value
+    contacts = max(
+        _beyond(place / first.radius, system.contact1.value), _beyond(place / second.radius, system.contact2.value)
+    )
+    miss = max(contacts, _beyond(swept, held_back.value))
     return Description(state, opening_of(z, system, held) > 0.0 and is_clear(z, system, held), miss)

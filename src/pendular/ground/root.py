@@ -6,7 +6,7 @@ __all__ = ["root_between"]
 
 
 def root_between(function: Callable[[float], float], low: float, high: float, tolerance: float) -> float:
-    """Place where a function changes its sign, by Chandrupatla's rule: bisection, or an inverse parabola that it trusts.
+    """Place where a function changes its sign, by bisection or, where it is trusted, inverse parabola.
 
     Parameters
     ----------
