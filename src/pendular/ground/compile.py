@@ -90,8 +90,9 @@ def compiled(function: Callable[..., Any]) -> Any:
 
     from .cache import keep_on_disk
 
-    dispatcher = njit(error_model="numpy", nogil=True, fastmath=set(_fastmath[function]))(rebound(function, compiled))
-    if dispatcher is not function:  # it is with the compiler off
+    source = rebound(function, compiled)
+    dispatcher = njit(error_model="numpy", nogil=True, fastmath=fastmath_of(function))(source)
+    if dispatcher is not source:  # it is with the compiler off
         keep_on_disk(dispatcher)
     return dispatcher
 

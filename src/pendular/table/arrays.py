@@ -41,10 +41,8 @@ def block_range(
     for begin in range(start, stop, _BLOCK):
         count = min(_BLOCK, stop - begin)
         for j, operand in enumerate(x):
-            if operand.size == 1:
-                asking[j, :count] = operand[0]
-            else:
-                asking[j, :count] = operand[begin : begin + count]
+            for i in range(count):
+                asking[j, i] = element(operand, begin + i)
         for i in range(count):
             pair = reduce_pair(grid, control[i], radius1[i], radius2[i], gamma[i])
             control[i], size[i], row[i], rupture[i] = pair.control, pair.size, pair.side, pair.radius
