@@ -470,3 +470,12 @@ def test_a_search_serves_narrower_ones():
     assert len(wide.gap) > len(narrow.gap) >= len(again.gap)
     limit = again.gap.max()
     assert np.count_nonzero(narrow.gap <= limit) == len(again.gap)
+
+
+def test_a_table_that_fails_leaves_its_bridges_to_the_exact_solver():
+    """At a volume liquid between equal grains slides to one side from 31° on, and no table holds that."""
+    heap = face_centred(3)
+    w = pl.wet(heap, 0.9, volume=1e-4, liquid=UNIT, method="table", path="wetting")
+    one = pl.bridge(pl.Pair(1.0, 0.9), 0.0, volume=1e-4, liquid=UNIT)
+    np.testing.assert_allclose(w.bridges.force, one.force, rtol=1e-6)
+    np.testing.assert_allclose(w.bridges.suction, one.suction, rtol=1e-6)

@@ -30,11 +30,13 @@ from .dataset.base import save_dataset as save_dataset
 from .dataset.interpolation import interpolate as interpolate
 from .dataset.interpolation import interpolate_rupture as interpolate_rupture
 from .dataset.interpolation import interpolation_error as interpolation_error
+from .packing.blocks import wet_in_blocks as wet_in_blocks
 from .packing.forces import BridgeState as BridgeState
 from .packing.forces import ContactForces as ContactForces
 from .packing.forces import contact_energy as contact_energy
 from .packing.forces import contact_forces as contact_forces
 from .packing.heap import Packing as Packing
+from .packing.heap import PackingWarning as PackingWarning
 from .packing.heap import Wall as Wall
 from .packing.lattice import lattice_packing as lattice_packing
 from .packing.limit import pendular_limit as pendular_limit
@@ -42,7 +44,6 @@ from .packing.loosening import loosened as loosened
 from .packing.precision import centre_noise as centre_noise
 from .packing.random_packing import random_packing as random_packing
 from .packing.retention import retention as retention
-from .packing.setting import PackingWarning as PackingWarning
 from .packing.sieve import sieved_radii as sieved_radii
 from .packing.state import State as State
 from .packing.state import load_state as load_state

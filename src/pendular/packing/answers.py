@@ -4,6 +4,7 @@ Force, volume and potential are found for all pairs, the whole geometry for thos
 """
 
 import math
+import warnings
 from functools import lru_cache
 from typing import Literal, NamedTuple
 
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 from ..ask.face import Bridge, bridge
 from ..ask.pair import Pair
 from ..ground.rows import element, entry, over_rows
-from ..table import Table, tabulate
+from ..table import Table, ToleranceWarning, tabulate
 from ..table.kernels import Grid, cell_of, find, gap_of, liquid_unit, q_of
 from ..table.polynomial import CELL, in_three
 from .neighbours import Neighbours
@@ -55,6 +56,8 @@ class Answers(NamedTuple):
     def taken(self, chosen: Rows | Bools) -> "Answers":
         """Some of the rows."""
         rows = np.flatnonzero(chosen) if chosen.dtype == np.bool_ else chosen
+        if len(rows) == len(self.force) and chosen.dtype == np.bool_:
+            return self
         return Answers(
             self.control,
             self.force[rows],
@@ -167,8 +170,10 @@ def _from_tables(setting: Setting, near: Neighbours, control: ControlName, value
         span = float(values[0]) * small / tension, float(values[0]) * large / tension
         if span[0] >= max(LEAST_SUCTION, low) and span[1] <= high:
             angle = float(setting.angles[0])
-            _ask(_table_over((angle, angle), control, span, large / small), setting, near, values, everywhere, found)
-            return everywhere
+            table = _table_over((angle, angle), control, span, large / small)
+            if table is not None:
+                _ask(table, setting, near, values, everywhere, found)
+                return everywhere
     radii = _radii(setting, near)
     smaller, larger = radii.min(axis=1), radii.max(axis=1)
     derjaguin = 2.0 / (1.0 / smaller + 1.0 / larger)
@@ -184,7 +189,10 @@ def _from_tables(setting: Setting, near: Neighbours, control: ControlName, value
         first, second = divmod(int(number) // 2, len(setting.angles))
         angles = float(setting.angles[first]), float(setting.angles[second])
         table = _table_over(angles, control, (float(reduced[rows].min()), float(reduced[rows].max())), ratio)
-        _ask(table, setting, near, values, rows, found)
+        if table is None:
+            covered[rows] = False
+        else:
+            _ask(table, setting, near, values, rows, found)
     return np.flatnonzero(~covered)
 
 
@@ -242,8 +250,10 @@ def _table_range(
         potentials[row] = potential_of(gaps[row], suction, force, volume, radii[i], radii[j], cosines, sines, tension)
 
 
-def _table_over(angles: tuple[float, float], control: ControlName, span: tuple[float, float], ratio: float) -> Table:
-    """A table that covers a range of the reduced control, of the usual size where that is enough."""
+def _table_over(
+    angles: tuple[float, float], control: ControlName, span: tuple[float, float], ratio: float
+) -> Table | None:
+    """Table that covers a range of the reduced control, of the usual size where that is enough; None if it fails."""
     low, high = min(span[0], _USUAL[control][0]), max(span[1], _USUAL[control][1])
     ends = math.floor(math.log2(low) / _OCTAVES), math.ceil(math.log2(high) / _OCTAVES)
     if math.isinf(ratio):
@@ -256,8 +266,15 @@ def _table_over(angles: tuple[float, float], control: ControlName, span: tuple[f
 @lru_cache(maxsize=32)
 def _table_of(
     angles: tuple[float, float], control: ControlName, ends: tuple[int, int], ratios: tuple[float, float]
-) -> Table:
-    """A table, made once and kept."""
+) -> Table | None:
+    """Table, made once and kept; none where bridges slide to one side or are too large, as some volumes do."""
     low, high = _LIMITS[control]
     reduced = max(low, 2.0 ** (_OCTAVES * ends[0])), min(high, 2.0 ** (_OCTAVES * ends[1]))
-    return tabulate(angles, control, reduced=reduced, radius_ratio=ratios)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", ToleranceWarning)
+        try:
+            return tabulate(angles, control, reduced=reduced, radius_ratio=ratios)
+        except (ToleranceWarning, ValueError):
+            if control == "suction":
+                raise
+            return None

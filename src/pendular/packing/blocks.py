@@ -115,6 +115,8 @@ def wet_in_blocks(
     Returns
     -------
     Totals
+        Record of grains, bridges, liquid_volume, saturation, water_content, porosity, stress, suction, interface_area,
+        coordination, meeting_grains, suction_stress and chi, as those of :class:`Wet`.
 
     Raises
     ------

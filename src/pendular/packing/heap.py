@@ -9,12 +9,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..ground.check import in_range, quantity, unmasked
 
-__all__ = ["Packing", "Wall"]
+__all__ = ["Packing", "PackingWarning", "Wall"]
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
 _ROUNDING = 1e-9  # of an angle between a wall and a vector of the cell, [rad]
+
+
+class PackingWarning(UserWarning):
+    """A heap is asked for what its positions do not tell."""
 
 
 class Wall(NamedTuple):

@@ -22,9 +22,9 @@ _FIRST_GROWTH = 0.01  # of the radii in a step
 # Without friction and with it: mean overlap of contacts over the mean radius, at the end; part of the overlap that a
 # step back takes; part of the load left after it. Contacts that slide let a heap go sooner.
 _SMOOTH, _ROUGH = (2e-6, 0.7, 0.5), (1e-4, 0.4, 0.65)
-_LOAD = 0.02  # overlaps a grain that are left of a step of growth where grains found room
+_LOAD = 0.1  # overlaps a grain that are left of a step of growth where grains found room
 _SKIN = 0.3  # of the median radius
-_TOLERANCE = 2e-3  # of the forces left
+_TOLERANCE = 1e-2  # of the forces left
 _MOST_STEPS = 20_000  # of one state
 
 
@@ -75,8 +75,8 @@ def random_packing(count: int, radii: ArrayLike, *, friction: float = 0.0, seed:
 
     Notes
     -----
-    Of equal grains the solid fraction is 0.64 without friction and 0.55 to 0.59 at a friction of 1, with the way it is
-    made; the command ``python -m benchmarks.random_packings`` prints it.
+    Of 1000 equal grains the solid fraction is 0.632 without friction, 0.578 at a friction of 0.3 and 0.547 at 10, with
+    5.8, 4.6 and 4.0 contacts a held grain; ``python -m benchmarks.random_packings`` prints them.
 
     References
     ----------

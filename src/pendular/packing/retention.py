@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..ask.liquid import Liquid
 from ..ground.check import in_range, quantity
 from ..ground.units import show
-from .answers import Answers, answers_at
+from .answers import Answers, answers_at, geometry_of
 from .heap import Packing
 from .history import members_of, pairs_at, reach_of
 from .limit import limit_between
@@ -222,13 +222,19 @@ class _Follower:
         """One suction, for all paths that pass it."""
         suction = float(self.suctions[k])
         chosen, _, answers, near = self._members_at(suction, members[walks[0].name])
+        chosen[chosen] = answers.exists
+        near, answers = near.taken(answers.exists), answers.taken(answers.exists)
+        answers = answers._replace(shape=geometry_of(self.setting, near, answers))
+        last, told = np.zeros(0, bool), None
         for walk in walks:
             now = members_of(self.setting, near, answers, members[walk.name][chosen])
             full = np.zeros(len(chosen), bool)
             full[chosen] = now
             members[walk.name] = full
-            outcome = Outcome(near.taken(now), answers.taken(now), suction, 0.0, 0.0, 0.0)
-            self._note(walk, k, wetted_of(self.setting, outcome, False, None, is_checked=False))
+            if told is None or not np.array_equal(now, last):
+                outcome = Outcome(near.taken(now), answers.taken(now), suction, 0.0, 0.0, 0.0)
+                last, told = now, wetted_of(self.setting, outcome, False, None, is_checked=False)
+            self._note(walk, k, told)
         self.done += 1
         if self.progress is not None:
             self.progress(min(1.0, self.done / (len(self.suctions) * (2 if self.falls else 1))))

@@ -12,17 +12,13 @@ from ..ground.check import angle, in_range, instance, one_of, scalar
 from .heap import Packing
 from .neighbours import Reach
 
-__all__ = ["METHODS", "PackingWarning", "Setting", "reach_at", "setting_of"]
+__all__ = ["METHODS", "Setting", "reach_at", "setting_of"]
 
 Floats = NDArray[np.float64]
 
 METHODS = ("auto", "exact", "table")
 _MARGIN = 1.05  # of the reach, over rupture distances at the ends of the ranges of radii and angles
 _TOUCHING = 1e-9  # of the smallest radius: rounding of positions
-
-
-class PackingWarning(UserWarning):
-    """A heap is asked for what its positions do not tell."""
 
 
 class Setting(NamedTuple):

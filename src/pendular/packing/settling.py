@@ -71,10 +71,11 @@ def settle(
     ----------
     .. [1] E. Bitzek et al., Phys. Rev. Lett. 97 (2006) 170201, doi 10.1103/PhysRevLett.97.170201.
     """
-    count = radii.size
+    count, axes = radii.size, 6 if friction > 0.0 else 3  # without it nothing turns a grain
     start = positions.copy()
     motion, force = np.zeros((count, 6)), np.zeros((count, 6))  # of spins: times the radius, and over it
     mean_radius = radii.mean()
+    ease = _ease(masses)
     step, mixing, downhill = _FIRST_STEP, _MIXING, 0
     overlap = 0.0
     for done in range(steps):
@@ -84,10 +85,10 @@ def settle(
             return LOOSE, done, overlap
         power, speed, push, left = 0.0, 0.0, 0.0, 0.0
         for i in range(count):
-            for k in range(6):
+            for k in range(axes):
                 power += force[i, k] * motion[i, k]
                 speed += motion[i, k] ** 2
-                pull = force[i, k] / (masses[i] if k < 3 else _INERTIA * masses[i])
+                pull = force[i, k] * ease[i, k // 3]
                 push += pull**2
                 left += force[i, k] ** 2
         if math.sqrt(left / count) < tolerance * overlap:
@@ -103,8 +104,8 @@ def settle(
         turn = mixing * math.sqrt(speed / push) if push > 0.0 else 0.0
         farthest = 0.0
         for i in range(count):
-            for k in range(6):
-                pull = force[i, k] / (masses[i] if k < 3 else _INERTIA * masses[i])
+            for k in range(axes):
+                pull = force[i, k] * ease[i, k // 3]
                 motion[i, k] = (1.0 - mixing) * motion[i, k] + (turn + step) * pull
             path = 0.0
             for k in range(3):
@@ -114,6 +115,15 @@ def settle(
         if 2.0 * math.sqrt(farthest) > skin:
             return STALE, done + 1, overlap
     return TIRED, steps, overlap
+
+
+@kernel
+def _ease(masses: Floats) -> Floats:
+    """One over the mass and over the inertia of each grain, (grains, 2)."""
+    ease = np.empty((masses.size, 2))
+    for i in range(masses.size):
+        ease[i, 0], ease[i, 1] = 1.0 / masses[i], 1.0 / (_INERTIA * masses[i])
+    return ease
 
 
 @kernel

@@ -13,10 +13,10 @@ from ..ground.check import in_range, one_of, scalar
 from ..ground.warn import warn
 from .amount import equilibrium_of
 from .answers import Answers, answers_at, geometry_of, uses_table
-from .heap import Packing
+from .heap import Packing, PackingWarning
 from .history import pairs_at, solid_volume_at, step_at
 from .neighbours import Neighbours
-from .setting import PackingWarning, Setting, setting_of
+from .setting import Setting, setting_of
 from .shape import AREA
 from .solids import pore_volume_of
 from .state import Book, State, standing_of
@@ -103,7 +103,8 @@ def wet(
     grain_density : float, optional
         ρ_s, [kg/m³], for masses.
     method : {"auto", "exact", "table"}
-        Exactly, or from tables of exact bridges, which ``"auto"`` takes for more than 20 000 pairs.
+        Exactly, or from tables of exact bridges, which ``"auto"`` takes for more than 20 000 pairs;
+        bridges that a table does not hold to its tolerance are exact all the same.
 
     Returns
     -------
@@ -135,7 +136,7 @@ def wet(
     >>> heap = pl.Packing([(0, 0, 0)], 1e-4, cell=(2e-4, 2e-4, 2e-4)).repeated((3, 3, 3))
     >>> w = pl.wet(heap, 0.35, suction=20e3, liquid=pl.Liquid(surface_tension=0.0728))
     >>> print(w)
-    81 bridges, suction 20000 Pa, saturation 0.00422446, suction stress 965.473 Pa
+    81 bridges, suction 20000 Pa, saturation 0.00283453, suction stress 968.112 Pa
     """
     setting = setting_of(heap, contact_angle, liquid, formation_distance, condensation, method)
     one_of("rule", rule, RULES)

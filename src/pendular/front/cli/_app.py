@@ -199,7 +199,7 @@ def warnings_in_one_line() -> Iterator[None]:
     """Print each warning of the library once, and no warning of any other."""
     from ...ask.face import ConvergenceWarning
     from ...ask.liquid import KelvinWarning
-    from ...packing.setting import PackingWarning
+    from ...packing.heap import PackingWarning
 
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("ignore")
