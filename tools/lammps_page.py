@@ -17,8 +17,9 @@ SHEAR = "examples/wet_shear_picture.py docs/images/wet_shear.svg"
 COUPLING = """\
 # LAMMPS
 
-`pendular.codes.lammps` puts exact bridges into a running LAMMPS: they form at contact, stay to the rupture distance, and
-add their forces, energies and stresses to those of the contacts. Nothing has to be compiled. This page is written by
+`pendular.codes.lammps` puts exact bridges into a running LAMMPS: they form at contact, stay to the rupture distance,
+and add their forces, energies and stresses to those of the contacts. Nothing has to be compiled. This page is written
+by
 `uv run --extra lammps python -m tools.lammps_page`.
 
 **Walls are dry.** Bridges join grains to grains. A fix `wall/gran`, or any other whose style begins with `wall`, holds
