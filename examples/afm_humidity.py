@@ -13,8 +13,8 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 import pendular as pl
-from pendular.show.colours import ACCENT, FAINT, HAIR, LIQUID, LIQUID_EDGE
 from pendular.ask.liquid import DOUBTFUL_CURVATURE_RADIUS as DOUBTFUL
+from pendular.ground.colours import ACCENT, FAINT, HAIR, LIQUID, LIQUID_EDGE
 
 TIP = pl.Pair(radius=(20e-9, np.inf), contact_angle=(np.deg2rad(10), np.deg2rad(40)))
 WATER = pl.Liquid.water(temperature=293.15)

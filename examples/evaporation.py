@@ -12,7 +12,7 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 import pendular as pl
-from pendular.show.colours import ACCENT, HAIR, LIQUID_EDGE
+from pendular.ground.colours import ACCENT, HAIR, LIQUID_EDGE
 
 GRAINS = pl.Pair(radius=50e-6, contact_angle=np.deg2rad(20))
 WATER = pl.Liquid.water(temperature=293.15)

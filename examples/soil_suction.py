@@ -14,7 +14,7 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 import pendular as pl
-from pendular.show.colours import ACCENT, FAINT, HAIR, LIQUID, LIQUID_EDGE
+from pendular.ground.colours import ACCENT, FAINT, HAIR, LIQUID, LIQUID_EDGE
 
 RADIUS = 37e-6
 GRAINS = pl.Pair(radius=RADIUS, contact_angle=0.0)

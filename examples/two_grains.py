@@ -19,9 +19,9 @@ from lammps import lammps
 from matplotlib.figure import Figure
 
 import pendular as pl
-from pendular.show.colours import ACCENT, FAINT, HAIR, INK, LIQUID, LIQUID_EDGE
 from pendular.codes import yade
 from pendular.codes.lammps import couple
+from pendular.ground.colours import ACCENT, FAINT, HAIR, INK, LIQUID, LIQUID_EDGE
 from pendular.show.picture import draw_pair, save
 
 SMALL, LARGE = 50e-6, 100e-6  # radii [m]; all as in yade_pull.py

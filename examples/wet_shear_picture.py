@@ -25,7 +25,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 import pendular as pl
-from pendular.show.colours import ACCENT, FAINT, GRAIN, GRAIN_EDGE, HAIR, INK, LIQUID, LIQUID_EDGE
+from pendular.ground.colours import ACCENT, FAINT, GRAIN, GRAIN_EDGE, HAIR, INK, LIQUID, LIQUID_EDGE
 from pendular.show.picture import save
 
 SUCTIONS = (10e3, 40e3, 160e3)  # [Pa]

@@ -1,5 +1,6 @@
 """The page of the architecture shows the import contract, and the contract covers every module."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -50,3 +51,25 @@ def test_the_diagram_stacks_the_layers_in_order():
         rows = [line.strip("│").strip() for line in architecture.diagram(contract["layers"]) if line.startswith("│")]
         assert rows == contract["layers"]
         assert "\n".join(architecture.diagram(contract["layers"])) in text
+
+
+def test_every_exception_of_a_contract_is_told():
+    text = architecture.PAGE.read_text("utf-8")
+    for contract in architecture.contracts():
+        for line in contract.get("ignore_imports", ()):
+            importer, imported = line.split(" -> ")
+            section = text.partition(f"## {contract['name']}\n")[2].partition("\n## ")[0]
+            assert f"`{importer}`" in section
+            assert f"`{imported}`" in section
+
+
+def test_every_module_that_the_page_names_exists():
+    """A room named in the text is there: ``ask.face``, or a file of ``exact``."""
+    text, _, _ = architecture.PAGE.read_text("utf-8").partition(architecture.BEGIN)
+    _, _, formulas = text.partition("## Where a formula lives")
+    named = re.findall(r"`((?:front|ask|exact|ground|codes|show|table)\.[a-z]+)", text)
+    named += [f"exact.{name.replace('/', '.')}" for name in re.findall(r"\| `([\w/]+)` \|$", formulas, re.MULTILINE)]
+    assert len(named) > 25
+    for name in named:
+        path = PACKAGE.joinpath(*name.split("."))
+        assert path.with_suffix(".py").is_file() or path.is_dir(), name

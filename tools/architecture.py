@@ -42,6 +42,16 @@ def diagram(layers: list[str]) -> Iterator[str]:
         yield f"├{'─' * width}┤" if layer is not layers[-1] else f"└{'─' * width}┘"
 
 
+def exceptions(contract: dict[str, object]) -> str:
+    """Imports that a contract allows nevertheless, by module."""
+    allowed: dict[str, list[str]] = {}
+    for line in contract.get("ignore_imports", ()):
+        importer, imported = line.split(" -> ")
+        allowed.setdefault(importer, []).append(f"`{imported}`")
+    which = ", ".join(f"`{importer}` ({' and '.join(names)})" for importer, names in allowed.items())
+    return f", except in {which}" if which else ""
+
+
 def part() -> Iterator[str]:
     """All contracts as Markdown."""
     for contract in contracts():
@@ -55,7 +65,7 @@ def part() -> Iterator[str]:
             importers, imported = (
                 ", ".join(f"`{n}`" for n in contract[f"{kind}_modules"]) for kind in ("source", "forbidden")
             )
-            yield f"{importers} never import {imported}."
+            yield f"{importers} never import {imported}{exceptions(contract)}."
         yield ""
 
 
