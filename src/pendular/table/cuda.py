@@ -12,7 +12,11 @@ from importlib.util import find_spec
 from typing import Any, Literal
 
 import numpy as np
-from numba import config, cuda
+
+try:
+    from numba import config, cuda
+except ModuleNotFoundError as absent:
+    raise ModuleNotFoundError("pendular.table.cuda needs Numba, which is not installed; pip install numba") from absent
 from numpy.typing import ArrayLike
 
 from ..ground.check import numbers, result_array
