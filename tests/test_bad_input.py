@@ -23,7 +23,8 @@ def known():
     packing = {"table": table, "positions": PLACES, "radii": [5e-5, 5e-5], "surface_tension": 0.07}
     state = pl.contact_forces(pairs=[(0, 1)], control=3e4, **packing).state
     data = pl.make_dataset(shape=(10, 10), size_ratio=1.0, contact_angle=0.3)
-    return {"table": table, "packing": packing, "state": state, "data": data}
+    heap = pl.lattice_packing("sc", 3, 5e-5)
+    return {"table": table, "packing": packing, "state": state, "data": data, "heap": heap}
 
 
 IN_DATA = {"control": "suction", "value_star": 20.0, "size_ratio": 1.0, "contact_angle": 0.3}
@@ -70,8 +71,37 @@ CALLS = {
         ON_LAW | {"separation_star": 0.0, "kappa1": 1.0, "kappa2": 1.0},
     ),
     "laws.rupture_star": lambda known: (pl.laws.rupture_star, ON_LAW | {"kappa1": 1.0, "kappa2": 1.0}),
+    "lattice_packing": lambda known: (pl.lattice_packing, {"kind": "sc", "cells": 3, "radius": 5e-5, "gap": 0.0}),
+    "random_packing": lambda known: (pl.random_packing, {"count": 60, "radii": 5e-5, "friction": 0.0, "seed": 0}),
+    "sieved_radii": lambda known: (
+        pl.sieved_radii,
+        {"count": 100, "sizes": [1e-4, 2e-4], "passing": [0.0, 100.0]},
+    ),
+    "loosened": lambda known: (pl.loosened, {"heap": known["heap"], "strain": 1e-3, "seed": 0}),
+    "centre_noise": lambda known: (pl.centre_noise, {"positions": PLACES}),
+    "wet": lambda known: (
+        pl.wet,
+        {"heap": known["heap"], "contact_angle": 0.1, "suction": 2e4, "liquid": WATER, "path": "drying"}
+        | {"formation_distance": 0.0, "method": "exact"},
+    ),
+    "retention": lambda known: (
+        pl.retention,
+        {"heap": known["heap"], "contact_angle": 0.1, "suctions": [1e4, 2e4], "liquid": WATER, "method": "exact"},
+    ),
+    "pendular_limit": lambda known: (
+        pl.pendular_limit,
+        {"heap": known["heap"], "contact_angle": 0.1, "liquid": WATER, "path": "drying", "method": "exact"},
+    ),
+    "wet_in_blocks": lambda known: (
+        pl.wet_in_blocks,
+        {"source": known["heap"], "contact_angle": 0.1, "suction": 2e4, "liquid": WATER, "blocks": (1, 1, 1)},
+    ),
+    "load_state": lambda known: (pl.load_state, {"path": "no.npz"}),
+    "read_packing": lambda known: (pl.read_packing, {"path": "no.dump", "unit": "mm"}),
+    "write_packing": lambda known: (pl.write_packing, {"path": "no.vtu", "heap": known["heap"]}),
+    "packing_dataset": lambda known: (pl.packing_dataset, {"heap": known["heap"]}),
 }
-MAY_BE_NONE = {("contact_energy", "state")}
+MAY_BE_NONE = {("contact_energy", "state"), ("wet", "suction")}
 
 
 def refusal(function, arguments):

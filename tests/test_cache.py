@@ -186,7 +186,12 @@ def changed_in_silence(path, before, after):
 @pytest.mark.parametrize(
     ("file", "before", "after", "expected"),
     [
-        ("ground/rows.py", "return operand[min(i, operand.size - 1)]", "return operand[min(0, operand.size - 1)]", 2.0),
+        (
+            "ground/rows.py",
+            "return float(operand[min(i, operand.size - 1)])",
+            "return float(operand[min(0, operand.size - 1)])",
+            2.0,
+        ),
         ("rooms/constants.py", "2.0", "5.0", 20.0),
     ],
 )

@@ -138,7 +138,7 @@ def test_forces_are_exactly_opposite_and_added_in_the_order_of_the_particles(tab
 
 def test_neither_threads_nor_the_order_of_the_list_change_a_bit(tables, monkeypatch):
     monkeypatch.setattr("pendular.packing.forces._CHUNK", 100)  # several chunks of a small list
-    monkeypatch.setattr("pendular.table.table._CHUNK", 100)
+    monkeypatch.setattr("pendular.table.arrays._CHUNK", 100)
     rng, pairs, positions, radii = packing(13, cells=8)
     results = []
     threads = numba.get_num_threads()

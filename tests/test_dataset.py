@@ -14,8 +14,8 @@ from distributed import LocalCluster
 
 import pendular as pl
 from oracles.young_laplace import EXACT, Solid, connect, state
-from pendular.dataset.base import base as ds
-from pendular.dataset.base import interpolation
+from pendular.dataset import base as ds
+from pendular.dataset import interpolation
 from pendular.dataset.grid import GridPoint, Solids, grid_point
 
 UNIT = pl.Liquid(surface_tension=1.0)

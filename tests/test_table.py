@@ -246,7 +246,7 @@ def test_nan_in_nan_out(table, place):
     assert math.isnan(kernels.force(table.grid, *arguments))
     out = np.empty(3)
     operands = tuple(np.array([argument]) for argument in arguments)
-    arrays.block_range(arrays.FORCE, table.grid, operands, out, 0, 3)
+    arrays.evaluate(arrays.FORCE, table.grid, operands, out)
     assert np.isnan(out).all()
 
 

@@ -41,10 +41,16 @@ CALLS = {
         pl.ConvergenceWarning,
     ),
     ("recommend", "failure"): (lambda: pl.recommend(reduced_suction=(10.0, 20.0)), pl.ConvergenceWarning),
+    ("wet", "meetings"): (
+        lambda: pl.wet(pl.lattice_packing("fcc", 3, 5e-5), 0.0, suction=100.0, liquid=WATER, method="exact"),
+        pl.PackingWarning,
+    ),
     ("tabulate", "tolerance"): (lambda: pl.tabulate(0.3, **NARROW), pl.ToleranceWarning),
 }
 SILENT = {
     *("contact_energy", "contact_forces", "humidity_from_suction", "suction_from_humidity", "load_table"),
+    *("lattice_packing", "random_packing", "sieved_radii", "loosened", "centre_noise", "retention", "pendular_limit"),
+    *("wet_in_blocks", "load_state", "read_packing", "write_packing", "packing_dataset"),
     *("interpolate", "interpolate_rupture", "interpolation_error", "load_dataset", "make_dataset", "save_dataset"),
 }
 

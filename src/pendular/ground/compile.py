@@ -5,12 +5,11 @@ NumPy: a division by zero gives inf or NaN, as NaN marks "outside the domain" th
 kernel is to be compiled, not before.
 """
 
-from collections.abc import Callable, Iterator
-from dis import get_instructions
+from collections.abc import Callable
 from functools import cache
 from importlib import import_module
 from importlib.util import find_spec
-from types import CellType, CodeType, FunctionType, ModuleType
+from types import CellType, FunctionType, ModuleType
 from typing import Any, TypeVar
 
 import numpy as np
@@ -100,26 +99,24 @@ def compiled(function: Callable[..., Any]) -> Any:
 def rebound(function: Callable[..., Any], into: Callable[[Any], Any]) -> Callable[..., Any]:
     """Copy a kernel so that all it calls, or looks up, is the compiled form of it; ``into`` gives that of a kernel."""
     assert isinstance(function, FunctionType)
-    names = set(_names_in(function.__code__))
-    known = {name: _form(value, into) for name, value in function.__globals__.items() if name in names}
     closure = tuple(CellType(_form(cell.cell_contents, into)) for cell in function.__closure__ or ())
-    copy = FunctionType(
-        function.__code__, {**function.__globals__, **known}, function.__name__, function.__defaults__, closure
-    )
-    copy.__kwdefaults__, copy.__qualname__, copy.__module__ = (
-        function.__kwdefaults__,
-        function.__qualname__,
-        function.__module__,
-    )
+    scope = _Scope(function.__globals__, into)
+    copy = FunctionType(function.__code__, scope, function.__name__, function.__defaults__, closure)
+    for name in ("__kwdefaults__", "__qualname__", "__module__", "__annotations__"):
+        setattr(copy, name, getattr(function, name))
     return copy
 
 
-def _names_in(code: CodeType) -> Iterator[str]:
-    """Global names that code looks up."""
-    yield from (line.argval for line in get_instructions(code) if line.opname == "LOAD_GLOBAL")
-    for part in code.co_consts:
-        if isinstance(part, CodeType):
-            yield from _names_in(part)
+class _Scope(dict[str, Any]):
+    """Global names of a kernel as compiled code sees them, each when it is looked up."""
+
+    def __init__(self, names: dict[str, Any], into: Callable[[Any], Any]) -> None:
+        super().__init__()
+        self._names, self._into = names, into
+
+    def __missing__(self, name: str) -> Any:
+        value = self[name] = _form(self._names[name], self._into)
+        return value
 
 
 def _form(value: Any, into: Callable[[Any], Any]) -> Any:

@@ -28,8 +28,8 @@ def root_between(function: Callable[[float], float], low: float, high: float, to
 
     Examples
     --------
-    >>> root_between(lambda x: x * x - 2.0, 0.0, 2.0, 1e-15)
-    1.4142135623730951
+    >>> round(root_between(lambda x: x * x - 2.0, 0.0, 2.0, 1e-15), 12)
+    1.414213562373
     """
     a, b, share = high, low, 0.5
     at_a, at_b = function(a), function(b)

@@ -29,7 +29,7 @@ _spent: dict[Any, float] = {}  # on plain answers so far, [s]
 @kernel
 def element(operand: NDArray[np.float64], i: int) -> float:
     """Element i of an operand that is as long as the result or has one element for all."""
-    return operand[min(i, operand.size - 1)]  # type: ignore[no-any-return]
+    return float(operand[min(i, operand.size - 1)])
 
 
 class Own(NamedTuple):
@@ -70,7 +70,8 @@ def over_rows(
     code = _machine_code(function, count, example)
     if code is None:
         start = perf_counter()
-        (plainly or function)(*example)
+        with np.errstate(all="ignore"):  # NaN and infinity are answers, as in machine code
+            (plainly or function)(*example)
         _spent[function] += perf_counter() - start
         return
     starts = range(0, count, chunk)

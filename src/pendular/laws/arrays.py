@@ -98,7 +98,7 @@ def rupture_work_star(
 
 
 def _evaluate(name: str, quantity: Quantity, **operands: ArrayLike) -> Array:
-    law = LAWS.get(name)
+    law = LAWS.get(name) if isinstance(name, str) else None
     if law is None or quantity not in law.gives:
         able = ", ".join(record.name for record in LAWS.values() if quantity in record.gives)
         raise ValueError(f"law is {name!r}, the laws that give the {quantity.replace('_', ' ')} are {able}")

@@ -101,9 +101,10 @@ def _fold(
     if not (suction_star > 0.0 and 0.0 <= contact_angle1 < 0.5 * math.pi and 0.0 <= contact_angle2 < 0.5 * math.pi):
         return math.nan, math.nan
     moment = 0.5 * (moments(0.5 * math.pi - contact_angle1)[0] + moments(0.5 * math.pi - contact_angle2)[0])
-    if moment == 0.0:  # two right angles
+    slope = moment * suction_star
+    if slope == 0.0:  # two right angles
         return math.nan, math.nan
-    w0 = 1.0 / (moment * suction_star)
+    w0 = 1.0 / slope
     f0 = gap(_force_of(w0, suction_star), suction_star, contact_angle1, contact_angle2, kappa1, kappa2)[1]
     w1 = w0 - 0.5 * w0 * f0
     for _ in range(_MAX_STEPS):
