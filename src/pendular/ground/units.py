@@ -34,6 +34,16 @@ _SHOWN = {
     "J": ("J", "", 1, 1.0),
 }
 
+# Units that are written most for an SI unit: the base, the rest, and its power; the decades of what has no prefix.
+_USUAL = {
+    "m": [("m", "", 1, 0)],
+    "m^3": [("m", "^3", 3, 0), ("L", "", 1, -3), ("l", "", 1, -3)],
+    "Pa": [("Pa", "", 1, 0), ("bar", "", 1, 5)],
+    "N/m": [("N", "/m", 1, 0)],
+    "m^3/mol": [("m", "^3/mol", 3, 0)],
+}
+_DECADES = {"": 0, "f": -15, "p": -12, "n": -9, "u": -6, "µ": -6, "μ": -6, "m": -3, "c": -2, "k": 3, "M": 6}
+
 
 Values = float | list[float]  # of one option: a value, or those of a sweep
 
@@ -323,6 +333,14 @@ def _split(name: str, text: str, example: str) -> tuple[float, str]:
 
 
 def _convert(name: str, text: str, number: float, own_unit: str, unit: str, example: str) -> float:
+    decades = _usual(unit).get(own_unit)
+    if decades is not None:
+        in_unit = number * 10.0**decades if decades >= 0 else number / 10.0**-decades
+        return float(f"{in_unit:.15g}")
+    if unit == "K" and own_unit == "degC":
+        return float(f"{number + 273.15:.15g}")
+    if unit == own_unit == "deg":
+        return number
     import pint
 
     try:
@@ -333,6 +351,16 @@ def _convert(name: str, text: str, number: float, own_unit: str, unit: str, exam
     except Exception:  # pint's parser lets errors of several kinds through, also of Python's own
         reason = f"has the unknown unit {own_unit!r}"
     raise ValueError(f"{name}: {text!r} {reason}; write it like {example}")
+
+
+@cache
+def _usual(unit: str) -> dict[str, int]:
+    """Powers of ten of the units that are written most, in an SI unit; pint, which takes a second, knows all others."""
+    found = {unit: 0}
+    for base, rest, power, decades in _USUAL.get(unit, ()):
+        for prefix, exponent in _DECADES.items():
+            found[f"{prefix}{base}{rest}"] = power * exponent + decades
+    return found
 
 
 @cache
