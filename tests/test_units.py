@@ -1,5 +1,6 @@
 """Units that are read without pint mean what they mean to pint, digit by digit."""
 
+import re
 import subprocess
 import sys
 
@@ -38,7 +39,7 @@ def test_other_units_are_left_to_pint(text, unit):
 
 @pytest.mark.parametrize(("text", "unit"), [("5mm", "Pa"), ("5L", "m"), ("5 kN", "N/m"), ("1um^3", "m"), ("1xm", "m")])
 def test_another_dimension_is_refused(text, unit):
-    with pytest.raises(ValueError, match=f"x: '{text}'"):
+    with pytest.raises(ValueError, match=re.escape(f"x: '{text}'")):
         units.read("x", text, unit, "1mm")
 
 

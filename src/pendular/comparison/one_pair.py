@@ -163,21 +163,24 @@ def _reduce(exact: Comparison, control: Control, liquid: Liquid) -> _Reduced:
     radii, angles = exact.pair.radii, exact.pair.contact_angles
     other: ControlName = "volume" if exact.control == "suction" else "suction"
     near = exact.fraction <= UP_TO
+    controls = {exact.control: control_star(problem), other: other_control_star(problem, exact)}
     return _Reduced(
         length=length,
         tension=liquid.surface_tension,
         solids=(float(angles[0]), float(angles[1]), length / float(radii[0]), length / float(radii[1])),
-        controls={exact.control: control_star(problem), other: other_control_star(problem, exact)},
-        judged={"volume": near, "suction": near & _is_near_by_suction(exact, liquid)},
+        controls=controls,
+        judged={"volume": near, "suction": _is_near_by_suction(exact, near & ~np.isnan(controls["suction"]), liquid)},
     )
 
 
-def _is_near_by_suction(exact: Comparison, liquid: Liquid) -> Bools:
-    """Whether states are well inside the branch that their suction holds."""
-    if exact.control == "suction":
-        return np.ones(exact.fraction.size, bool)
-    end = rupture(exact.pair, suction=exact.suction, liquid=liquid)
-    return np.asarray(exact.separation <= UP_TO * np.asarray(end.separation))
+def _is_near_by_suction(exact: Comparison, asked: Bools, liquid: Liquid) -> Bools:
+    """Which of the states that are asked for are well inside the branch that their suction holds."""
+    if exact.control == "suction" or not asked.any():
+        return asked
+    end = rupture(exact.pair, suction=exact.suction[asked], liquid=liquid)
+    near = np.zeros(asked.size, bool)
+    near[asked] = exact.separation[asked] <= UP_TO * np.asarray(end.separation)
+    return near
 
 
 def _answer(law: Law, exact: Comparison, reduced: _Reduced) -> LawAnswer:
