@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ..ground.compile import kernel
 from .curve import Curve, Stance
-from .ends import lower_end, stable_bridge, unstable_bridge, upper_end
+from .ends import lower_end, quick_end, stable_bridge, unstable_bridge, upper_end
 from .equations import SUCTION
 from .follow import Nodes, Walk
 from .guess import guess_at
@@ -87,6 +87,24 @@ def bridge_of(walk: Walk, separation: float) -> Answer:
 
 
 @kernel
+def answer_at_end(asked: int, limit: int, task: Task) -> Answer:
+    """What a few leaps to the end of the branch tell: rupture, or that a bridge is not before it; else FAILED."""
+    walk, is_known = quick_end(task, limit)
+    if asked == RUPTURE:
+        return _apart(end_of(walk, is_known))
+    if is_known and task.separation >= walk.stance.separation:
+        return bridge_of(walk, task.separation)
+    return Answer(walk.stance, walk.curve, walk.event, FAILED)
+
+
+@kernel
+def _apart(end: Answer) -> Answer:
+    """Rupture of solids that hold a bridge apart."""
+    holds_apart = end.status != FOUND or end.stance.separation >= 0.0
+    return end if holds_apart else Answer(end.stance, end.curve, end.event, NO_BRIDGE)
+
+
+@kernel
 def answer_to(asked: int, limit: int, task: Task, nodes: Nodes) -> Answer:
     """The bridge, or the end of a branch, that a question asks for."""
     if asked == STABLE:
@@ -101,9 +119,7 @@ def answer_to(asked: int, limit: int, task: Task, nodes: Nodes) -> Answer:
         end = end_of(walk, is_known)
         return Answer(end.stance, end.curve, end.event, NO_BRIDGE) if walk.event == ARRIVED else end
     walk, is_known = upper_end(task, limit, nodes)
-    end = end_of(walk, is_known)
-    holds_apart = end.status != FOUND or walk.stance.separation >= 0.0
-    return end if holds_apart else Answer(end.stance, end.curve, end.event, NO_BRIDGE)
+    return _apart(end_of(walk, is_known))
 
 
 @kernel

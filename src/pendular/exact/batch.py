@@ -5,6 +5,9 @@ fields of :class:`State`.
 """
 
 import math
+from collections.abc import Callable
+from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +24,8 @@ from .answers import (
     STABLE,
     STIFFNESS,
     UNSTABLE,
+    Answer,
+    answer_at_end,
     answer_to,
     directly_stored,
     holds_nothing,
@@ -55,6 +60,8 @@ __all__ = [
 Rows = NDArray[np.float64]
 Statuses = NDArray[np.int8]
 
+OPEN = -1  # status of a row that a part of the solver leaves to the whole of it
+
 _MOST_NODES = 1200
 _CHUNK = 1024  # bridges that one thread takes at a time: some milliseconds, against which its start is nothing
 
@@ -74,7 +81,56 @@ def task_of(row: Rows, control: int) -> Task:
     return Task(float(row[0]), value, float(row[2]), float(row[3]), float(row[4]), float(row[5]), control)
 
 
-@entry(plain_cost=5e-3)
+@kernel
+def _can_hold(task: Task) -> bool:
+    """Whether a stable bridge is possible at all."""
+    return not (task.control == SUCTION and are_planes(task)) and not holds_nothing(task)
+
+
+@entry(plain_cost=2e-3)
+def stable_range(control: int, questions: Rows, states: Rows, statuses: Statuses, start: int, stop: int) -> None:
+    """Stable bridges of the rows for which Newton's method leads there from a guess; others stay OPEN."""
+    for i in range(start, stop):
+        task = task_of(questions[i], control)
+        status = NO_BRIDGE
+        if _can_hold(task):
+            status = FOUND if directly_stored(task, states[i]) == FOUND else OPEN
+        statuses[i] = status
+        if status != FOUND:
+            states[i, :] = math.nan
+
+
+@entry(plain_cost=8e-3)
+def end_range(
+    asked: int, limit: int, control: int, questions: Rows, states: Rows, statuses: Statuses, start: int, stop: int
+) -> None:
+    """Answer the rows whose branch ends where a few leaps from a guess lead: ruptures, and bridges not before it.
+
+    Others stay OPEN.
+    """
+    for i in range(start, stop):
+        task = task_of(questions[i], control)
+        status = NO_BRIDGE
+        if _can_hold(task):
+            end = answer_at_end(asked, limit, task)
+            status = _end_stored(asked, end, states[i]) if end.status == FOUND else end.status
+            if status == FAILED:
+                status = OPEN
+        statuses[i] = status
+        if status != FOUND:
+            states[i, :] = math.nan
+
+
+@kernel
+def _end_stored(asked: int, end: Answer, row: Rows) -> int:
+    """Store where a search ended; at a fold the force changes infinitely fast."""
+    status = store_end(end, row)
+    if end.event == FOLD:
+        row[STIFFNESS] = math.inf if asked == LOWER_END else -math.inf
+    return status
+
+
+@entry(plain_cost=0.05)
 def bridge_range(
     asked: int,
     limit: int,
@@ -99,9 +155,7 @@ def bridge_range(
                 end = answer_to(asked, limit, task, nodes[:0])
                 status = end.status
                 if status == FOUND:
-                    status = store_end(end, states[i])
-                    if end.event == FOLD:
-                        states[i, STIFFNESS] = math.inf if asked == LOWER_END else -math.inf
+                    status = _end_stored(asked, end, states[i])
                 elif status == FAILED and control == SUCTION and task.value < 0.0:
                     status = NO_BRIDGE  # under pressure most pairs hold no bridge; one that exists is found
         statuses[i] = status
@@ -109,24 +163,49 @@ def bridge_range(
             states[i, :] = math.nan
 
 
-def _plainly(
-    asked: int, limit: int, control: int, questions: Rows, states: Rows, statuses: Statuses, nodes: Rows, *_: int
-) -> None:
-    """Answer the rows one by one in plain Python; where its arithmetic has no answer, as 1/0, the row has failed."""
-    for i in range(len(questions)):
-        try:
-            bridge_range(asked, limit, control, questions, states, statuses, nodes, i, i + 1)
-        except (ArithmeticError, ValueError):
-            states[i, :], statuses[i] = math.nan, FAILED
-
-
 def answer(asked: int, control: int, questions: Rows, limit: int = BRANCH_ENDS) -> tuple[Rows, Statuses]:
-    """Answer rows of questions on all threads: their states and statuses."""
+    """Answer rows of questions on all threads: their states and statuses.
+
+    Parts of the solver, soon compiled, answer nearly all; rows that one leaves open are asked of the next, and the last
+    is the whole.
+    """
     count = len(questions)
-    states, statuses = np.empty((count, len(State._fields))), np.empty(count, np.int8)
-    asking = (asked, limit, control, questions, states, statuses)
-    over_rows(bridge_range, count, _CHUNK, *asking, Own(_room_for_nodes), plainly=_plainly)
+    states, statuses = np.empty((count, len(State._fields))), np.full(count, OPEN, np.int8)
+    asking = (questions, states, statuses)
+    if asked == STABLE:
+        _over_open(stable_range, (control,), *asking)
+    if asked in (STABLE, RUPTURE):
+        _over_open(end_range, (asked, limit, control), *asking)
+    _over_open(bridge_range, (asked, limit, control), *asking, Own(_room_for_nodes))
     return states, statuses
+
+
+def _over_open(
+    function: Callable[..., None], given: tuple[int, ...], questions: Rows, states: Rows, statuses: Statuses, *room: Own
+) -> None:
+    """Run an entry over the rows that are open."""
+    rows = np.flatnonzero(statuses == OPEN)
+    if not rows.size:
+        return
+    part = questions, states, statuses
+    if rows.size < len(statuses):
+        part = questions[rows], np.empty((rows.size, states.shape[1])), np.empty(rows.size, np.int8)
+    plainly = partial(_plainly, function, *part[1:])
+    over_rows(function, rows.size, _CHUNK, *given, *part, *room, plainly=plainly)
+    if rows.size < len(statuses):
+        states[rows], statuses[rows] = part[1:]
+
+
+def _plainly(function: Callable[..., None], states: Rows, statuses: Statuses, *asking: Any) -> None:
+    """Answer the rows one by one in plain Python.
+
+    Where its arithmetic has no answer, as 1/0, the whole solver has failed, and a part of it leaves the row open.
+    """
+    for i in range(len(statuses)):
+        try:
+            function(*asking[:-2], i, i + 1)
+        except (ArithmeticError, ValueError):
+            states[i, :], statuses[i] = math.nan, FAILED if function is bridge_range else OPEN
 
 
 @entry(plain_cost=0.5)

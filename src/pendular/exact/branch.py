@@ -8,16 +8,17 @@ than D_c. The stretched coordinate, with asinh(D/d) in the place of D, is smooth
 """
 
 import math
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..ground.compile import kernel
-from ..ground.rows import entry
+from ..ground.rows import Own, entry, over_rows
 from .algebra import Four, largest
-from .ends import stable_bridge, upper_end
+from .ends import quick_end, stable_bridge, upper_end
 from .equations import SUCTION, Held, curvature_of, force_of, system_at
-from .follow import BRANCH_ENDS, Nodes
+from .follow import BRANCH_ENDS, Nodes, recorded
 from .locate import ARRIVED, FOLD, PITCHFORK
 from .morph import Task, held_of
 from .newton import newton_to
@@ -76,6 +77,30 @@ def _is_stable(z: Four, held: Held) -> bool:
 
 
 @kernel
+def _walked(
+    first: int, end: Four, rupture: float, task: Task, q: Vector, stretch: float, values: Rows, nodes: Nodes
+) -> int:
+    """Fill in the stable bridges from a number on, each foretold by those nearer to rupture; where that came to."""
+    held = held_of(task)
+    for i in range(first, q.size):
+        guess = _foretold(q, i, end, nodes)
+        z, is_met = newton_to(guess, separation_at(q[i], rupture, stretch), held, _MOST_STEPS)
+        last = end if i == 0 else recorded(nodes, i - 1)
+        if not (is_met and _distance(z, guess) < _NEAR * _distance(guess, last) and _is_stable(z, held)):
+            return i
+        _fill(i, z, held, values, nodes)
+    return q.size
+
+
+@kernel
+def _fill(i: int, z: Four, held: Held, values: Rows, nodes: Nodes) -> None:
+    """Store a bridge: its meridian, force λ, and V or H."""
+    nodes[i, 0], nodes[i, 1], nodes[i, 2], nodes[i, 3] = z[0], z[1], z[2], z[3]
+    values[i, 0] = force_of(z)
+    values[i, 1] = math.pi * system_at(z, held, True, True).volume.value if held.control == SUCTION else curvature_of(z)
+
+
+@kernel
 def fill_branch(task: Task, q: Vector, stretch: float, values: Rows, nodes: Nodes) -> float:
     """Force λ, and V or H, of the stable bridges at each q, ascending; returns the rupture distance, NaN if none.
 
@@ -83,28 +108,19 @@ def fill_branch(task: Task, q: Vector, stretch: float, values: Rows, nodes: Node
     sought.
     """
     values[:] = math.nan
-    held = held_of(task)
     walk, is_found = upper_end(task, BRANCH_ENDS, nodes)
     if not (is_found and (walk.event in (FOLD, PITCHFORK)) and walk.stance.separation > 0.0):
         return math.nan
-    rupture = walk.stance.separation
-    last = walk.stance.z
-    for i in range(q.size):
-        separation = separation_at(q[i], rupture, stretch)
-        guess = _foretold(q, i, walk.stance.z, nodes)
-        z, is_met = newton_to(guess, separation, held, _MOST_STEPS)
-        way, miss = _distance(guess, last), _distance(z, guess)
-        if not (is_met and miss < _NEAR * way and _is_stable(z, held)):
-            sought = stable_bridge(at_separation(task, separation), BRANCH_ENDS, nodes[:0])
-            if sought.event != ARRIVED:
-                break
-            z = sought.stance.z
-        last = z
-        nodes[i, 0], nodes[i, 1], nodes[i, 2], nodes[i, 3] = z[0], z[1], z[2], z[3]
-        values[i, 0] = force_of(z)
-        values[i, 1] = (
-            math.pi * system_at(z, held, True, True).volume.value if held.control == SUCTION else curvature_of(z)
-        )
+    rupture, i = walk.stance.separation, 0
+    while i < q.size:
+        i = _walked(i, walk.stance.z, rupture, task, q, stretch, values, nodes)
+        if i == q.size:
+            break
+        sought = stable_bridge(at_separation(task, separation_at(q[i], rupture, stretch)), BRANCH_ENDS, nodes[:0])
+        if sought.event != ARRIVED:
+            break
+        _fill(i, sought.stance.z, held_of(task), values, nodes)
+        i += 1
     return rupture
 
 
@@ -113,7 +129,40 @@ def _distance(a: Four, b: Four) -> float:
     return largest(Four(a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]))
 
 
-@entry(plain_cost=0.05)
+@kernel
+def _branch_of(row: Vector, control: int, stretched: bool) -> tuple[Task, float]:
+    """Task of a row of pairs, and the length by which it is stretched."""
+    value, k1, angle1, k2, angle2 = row
+    stretch = stretch_of(value, k1 + k2) if stretched else math.inf
+    if control != SUCTION:
+        value /= math.pi
+    return Task(0.0, value, k1, angle1, k2, angle2, control), stretch
+
+
+@entry(plain_cost=0.04)
+def foretold_range(
+    control: int,
+    stretched: bool,
+    pairs: Rows,
+    q: Vector,
+    rupture: Vector,
+    values: NDArray[np.float64],
+    is_open: NDArray[np.bool_],
+    nodes: Nodes,
+    start: int,
+    stop: int,
+) -> None:
+    """Branches all of whose bridges are where those nearer to rupture foretell them; others stay open."""
+    for i in range(start, stop):
+        task, stretch = _branch_of(pairs[i], control, stretched)
+        walk, is_found = quick_end(task, BRANCH_ENDS)
+        rupture[i], is_open[i] = walk.stance.separation, True
+        if is_found and rupture[i] > 0.0:
+            reached = _walked(0, walk.stance.z, rupture[i], task, q, stretch, values[i], nodes)
+            is_open[i] = reached < q.size
+
+
+@entry(plain_cost=0.1)
 def branch_range(
     control: int,
     stretched: bool,
@@ -125,15 +174,23 @@ def branch_range(
     start: int,
     stop: int,
 ) -> None:
-    """Branches at the same q, ascending, for the rows from start to stop.
-
-    Rows of ``pairs`` are (H or V, k1, θ1, k2, θ2). ``values`` has for each row and q the force, and V or H;
-    ``nodes`` has room for the meridian at each q.
-    """
+    """Branches for the rows from start to stop, wherever they lead."""
     for i in range(start, stop):
-        value, k1, angle1, k2, angle2 = pairs[i]
-        stretch = stretch_of(value, k1 + k2) if stretched else math.inf
-        if control != SUCTION:
-            value /= math.pi
-        task = Task(0.0, value, k1, angle1, k2, angle2, control)
+        task, stretch = _branch_of(pairs[i], control, stretched)
         rupture[i] = fill_branch(task, q, stretch, values[i], nodes)
+
+
+def branches(control: int, stretched: bool, pairs: Rows, q: Vector, chunk: int) -> tuple[Vector, NDArray[np.float64]]:
+    """Branches at the same q, ascending: the rupture distance of each row, and at each q the force, and V or H.
+
+    Rows of ``pairs`` are (H or V, k1, θ1, k2, θ2). Those that are not foretold are left to the whole solver.
+    """
+    rupture, values = np.empty(len(pairs)), np.empty((len(pairs), q.size, 2))
+    is_open, room = np.zeros(len(pairs), bool), Own(partial(np.empty, (q.size, 4)))
+    over_rows(foretold_range, len(pairs), chunk, control, stretched, pairs, q, rupture, values, is_open, room)
+    left = np.flatnonzero(is_open)
+    if left.size:
+        part = np.empty(left.size), np.empty((left.size, q.size, 2))
+        over_rows(branch_range, left.size, chunk, control, stretched, pairs[left], q, *part, room)
+        rupture[left], values[left] = part
+    return rupture, values

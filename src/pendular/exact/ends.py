@@ -140,7 +140,7 @@ def _leap_to(event: int, start: Stance, curve: Curve) -> tuple[Stance, bool]:
 
 
 @kernel
-def _quick_end(task: Task, stops_at: int) -> tuple[Walk, bool]:
+def quick_end(task: Task, stops_at: int) -> tuple[Walk, bool]:
     """Rupture by leaps from a stable bridge next to it, and whether that went well."""
     held, symmetric = held_of(task), is_symmetric(task)
     separation, is_met = _NEXT_TO_RUPTURE * _rupture_guess(held), False
@@ -168,7 +168,7 @@ def _quick_end(task: Task, stops_at: int) -> tuple[Walk, bool]:
 @kernel
 def upper_end(task: Task, stops_at: int, nodes: Nodes) -> tuple[Walk, bool]:
     """Rupture: the end of the stable branch, or its fold."""
-    walk, is_found = _quick_end(task, stops_at)
+    walk, is_found = quick_end(task, stops_at)
     if is_found:
         return walk, True
     return walk_from_anchor(task, 1.0, math.nan, stops_at, nodes)

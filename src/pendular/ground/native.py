@@ -7,12 +7,13 @@ is installed, so that both agree on this; its name has a stamp of all that enter
 """
 
 import ctypes
+import gc
 import hashlib
 import json
 import os
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, ExitStack, suppress
+from contextlib import AbstractContextManager, ExitStack, contextmanager, suppress
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -49,6 +50,7 @@ def build(function: Callable[..., None], arguments: tuple[Any, ...]) -> Native |
     with ExitStack() as told:
         for notice in notices:
             told.enter_context(notice())
+        told.enter_context(_without_collector())
         content = _compiled(function, arguments)
     with suppress(OSError):
         path = _path_of(function, types)
@@ -216,6 +218,36 @@ def _unlinked(function: Callable[..., Any]) -> Any:
 
 @cache
 def _context_of_files() -> Any:
+    """Context in which code is optimised once, when it is whole: Numba would do it for each kernel and its callers."""
+    from numba.core.codegen import AOTCodeLibrary, AOTCPUCodegen
     from numba.core.registry import cpu_target
 
-    return cpu_target.target_context.with_aot_codegen("pendular", cpu_name="host")
+    class Library(AOTCodeLibrary):
+        def _optimize_functions(self, module: Any) -> None:
+            module.data_layout = self._codegen._data_layout
+
+        def _optimize_final_module(self) -> None:
+            pass
+
+        def emit_native_object(self) -> Any:
+            self._ensure_finalized()
+            super()._optimize_functions(self._final_module)
+            super()._optimize_final_module()
+            return super().emit_native_object()
+
+    class Codegen(AOTCPUCodegen):
+        _library_class = Library
+
+    return cpu_target.target_context.subtarget(_internal_codegen=Codegen("pendular", cpu_name="host"), aot_mode=True)
+
+
+@contextmanager
+def _without_collector() -> Iterator[None]:
+    """Spare the compiler, which drops nothing that it makes, the search for what it might have dropped."""
+    was_on = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_on:
+            gc.enable()

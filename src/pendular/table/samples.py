@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..exact.branch import branch_range, stretch_of
+from ..exact.branch import branches, stretch_of
 from ..exact.equations import SUCTION, VOLUME
 from ..ground.compile import kernel
 from ..ground.rows import Own, entry, over_rows
@@ -58,14 +58,11 @@ def pairs_of(task: Task, control: Floats, size: Floats, side: int | NDArray[np.i
 def exact_curves(task: Task, control: Floats, size: Floats, side: int, q: Floats, *, stretched: bool = False) -> Curves:
     """Solve for the curves at controls and sizes, all at the same q."""
     order = np.argsort(q)
-    found = Curves(np.empty(control.size), np.empty((control.size, q.size, 2)))
     held = VOLUME if task.is_volume else SUCTION
-    pairs = pairs_of(task, control, size, side)
-    room = Own(lambda: np.empty((q.size, 4)))
-    over_rows(branch_range, control.size, _CHUNK, held, stretched, pairs, q[order], *found, room)
-    values = np.empty_like(found.values)
-    values[:, order] = found.values
-    return Curves(found.rupture, values)
+    rupture, found = branches(held, stretched, pairs_of(task, control, size, side), q[order], _CHUNK)
+    values = np.empty_like(found)
+    values[:, order] = found
+    return Curves(rupture, values)
 
 
 def _to_series(values: Floats, axis: int) -> Floats:
