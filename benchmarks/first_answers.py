@@ -172,9 +172,8 @@ def of_call() -> tuple[float, float]:
             return answers(Path(empty), folder)[0], warm
 
     def answers(caches: Path, folder: Path) -> tuple[float, float]:
-        done = subprocess.run(
-            [sys.executable, "-c", CALL], cwd=folder, env=environment(caches), capture_output=True, text=True, check=True
-        )
+        command = [sys.executable, "-c", CALL]
+        done = subprocess.run(command, cwd=folder, env=environment(caches), capture_output=True, text=True, check=True)
         first, later = map(float, done.stdout.split())
         return first, later
 
@@ -219,8 +218,8 @@ Written by `python -m benchmarks.first_answers`: processor seconds of the whole 
 {processor()}, {platform.system()}, Python {platform.python_version()}, {versions}. *Cold* is
 a process that finds no machine code and no other cache of a user, as in a fresh container, on a node of a cluster or in
 CI; the byte code of Python is there, as an installation leaves it. *Warm* is the same process again. Medians of
-{ROUNDS}; of what takes more than {LONG:g} s, one run. `python -c pass` takes {floor:.3f} s here; the last column is what
-a cold process takes beyond it. A ✗ marks what misses its goal.
+{ROUNDS}; of what takes more than {LONG:g} s, one run. `python -c pass` takes {floor:.3f} s here; the last column is
+what a cold process takes beyond it. A ✗ marks what misses its goal.
 
 | | cold | goal | warm | goal | cold, beyond `pass` |
 |---|---:|---:|---:|---:|---:|

@@ -163,7 +163,7 @@ def _reduce(exact: Comparison, control: Control, liquid: Liquid) -> _Reduced:
     radii, angles = exact.pair.radii, exact.pair.contact_angles
     other: ControlName = "volume" if exact.control == "suction" else "suction"
     near = exact.fraction <= UP_TO
-    controls = {exact.control: control_star(problem), other: other_control_star(problem, exact)}
+    controls: dict[str, Floats] = {exact.control: control_star(problem), other: other_control_star(problem, exact)}
     return _Reduced(
         length=length,
         tension=liquid.surface_tension,
