@@ -99,6 +99,8 @@ def compiled(function: Callable[..., Any]) -> Any:
 def rebound(function: Callable[..., Any], into: Callable[[Any], Any]) -> Callable[..., Any]:
     """Copy a kernel so that all it calls, or looks up, is the compiled form of it; ``into`` gives that of a kernel."""
     assert isinstance(function, FunctionType)
+    for module in set(_writers.values()):  # Numba learns of overloads before it begins, not on the way
+        import_module(module)
     closure = tuple(CellType(_form(cell.cell_contents, into)) for cell in function.__closure__ or ())
     scope = _Scope(function.__globals__, into)
     copy = FunctionType(function.__code__, scope, function.__name__, function.__defaults__, closure)
@@ -122,10 +124,8 @@ class _Scope(dict[str, Any]):
 def _form(value: Any, into: Callable[[Any], Any]) -> Any:
     if isinstance(value, _Constants):
         return np.array(value)
-    if is_kernel(value):
-        if value not in _writers:
-            return into(value)
-        import_module(_writers[value])
+    if is_kernel(value) and value not in _writers:
+        return into(value)
     if isinstance(value, ModuleType) and value.__name__.startswith(f"{__package__.partition('.')[0]}."):
         return _Rebound(value, into)
     return value
