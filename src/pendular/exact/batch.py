@@ -130,7 +130,7 @@ def _end_stored(asked: int, end: Answer, row: Rows) -> int:
     return status
 
 
-@entry(plain_cost=0.05)
+@entry(plain_cost=0.05, patience=15.0)
 def bridge_range(
     asked: int,
     limit: int,

@@ -15,10 +15,11 @@ from numpy.typing import NDArray
 
 from ..ground.compile import kernel
 from ..ground.rows import Own, entry, over_rows
-from .algebra import Four, largest
+from .algebra import Four, largest, moved
+from .curve import stance_at
 from .ends import quick_end, stable_bridge, upper_end
-from .equations import SUCTION, Held, curvature_of, force_of, system_at
-from .follow import BRANCH_ENDS, Nodes, recorded
+from .equations import SUCTION, Held, curvature_of, force_of, held_row, system_at
+from .follow import BRANCH_ENDS, Nodes, Walk, recorded
 from .locate import ARRIVED, FOLD, PITCHFORK
 from .morph import Task, held_of
 from .newton import newton_to
@@ -29,6 +30,8 @@ Vector = NDArray[np.float64]
 Rows = NDArray[np.float64]
 
 _MOST_STEPS = 6
+_ROUNDING = 1e-13  # in the equations of a bridge
+_PROBE = 1e-3  # way from the end of a branch that tells how the separation falls
 _NEAR = 0.25  # largest miss of a foretold bridge, over its way from the last one
 
 
@@ -77,14 +80,34 @@ def _is_stable(z: Four, held: Held) -> bool:
 
 
 @kernel
-def _walked(
-    first: int, end: Four, rupture: float, task: Task, q: Vector, stretch: float, values: Rows, nodes: Nodes
-) -> int:
+def _before(walk: Walk, separation: float) -> Four:
+    """Meridian at a separation just before the end of a branch, along its tangent: the separation is a parabola."""
+    end = walk.stance
+    bend = (stance_at(moved(end.z, -_PROBE, end.tangent), walk.curve).slope - end.slope) / _PROBE
+    fall = (end.separation - separation) * math.exp(-end.z.log_length)
+    slope = max(end.slope, 0.0)
+    square = slope * slope + 2.0 * bend * fall
+    return moved(end.z, -2.0 * fall / (slope + math.sqrt(square)), end.tangent) if square > 0.0 else end.z
+
+
+@kernel
+def _has_stalled(z: Four, separation: float, held: Held) -> bool:
+    """Whether a meridian is a bridge to rounding, which is what Newton's method ends in next to a fold."""
+    system = system_at(z, held, True, True)
+    contacts = max(abs(system.contact1.value), abs(system.contact2.value))
+    gap = abs(system.separation.value - separation) * math.exp(-z.log_length)
+    return max(contacts, gap, abs(held_row(z, system, held).value)) < _ROUNDING
+
+
+@kernel
+def _walked(first: int, walk: Walk, q: Vector, stretch: float, values: Rows, nodes: Nodes) -> int:
     """Fill in the stable bridges from a number on, each foretold by those nearer to rupture; where that came to."""
-    held = held_of(task)
+    held, end = walk.curve.held, walk.stance.z
     for i in range(first, q.size):
-        guess = _foretold(q, i, end, nodes)
-        z, is_met = newton_to(guess, separation_at(q[i], rupture, stretch), held, _MOST_STEPS)
+        separation = separation_at(q[i], walk.stance.separation, stretch)
+        guess = _before(walk, separation) if i == 0 else _foretold(q, i, end, nodes)
+        z, is_met = newton_to(guess, separation, held, _MOST_STEPS)
+        is_met = is_met or _has_stalled(z, separation, held)
         last = end if i == 0 else recorded(nodes, i - 1)
         if not (is_met and _distance(z, guess) < _NEAR * _distance(guess, last) and _is_stable(z, held)):
             return i
@@ -113,7 +136,7 @@ def fill_branch(task: Task, q: Vector, stretch: float, values: Rows, nodes: Node
         return math.nan
     rupture, i = walk.stance.separation, 0
     while i < q.size:
-        i = _walked(i, walk.stance.z, rupture, task, q, stretch, values, nodes)
+        i = _walked(i, walk, q, stretch, values, nodes)
         if i == q.size:
             break
         sought = stable_bridge(at_separation(task, separation_at(q[i], rupture, stretch)), BRANCH_ENDS, nodes[:0])
@@ -158,11 +181,11 @@ def foretold_range(
         walk, is_found = quick_end(task, BRANCH_ENDS)
         rupture[i], is_open[i] = walk.stance.separation, True
         if is_found and rupture[i] > 0.0:
-            reached = _walked(0, walk.stance.z, rupture[i], task, q, stretch, values[i], nodes)
+            reached = _walked(0, walk, q, stretch, values[i], nodes)
             is_open[i] = reached < q.size
 
 
-@entry(plain_cost=0.1)
+@entry(plain_cost=0.1, patience=10.0)
 def branch_range(
     control: int,
     stretched: bool,

@@ -19,10 +19,11 @@ from .threads import thread_count
 __all__ = ["ENTRIES", "Own", "element", "entry", "over_rows"]
 
 _LOADING = 0.15  # of machine code, [s]
-_PATIENCE = 3.0  # on plain answers before anything is compiled, [s]
+_PATIENCE = 3.0  # on plain answers before an entry is compiled that tells no other, [s]
 
 ENTRIES: list[Callable[..., None]] = []  # all kernels that arrays call
 _costs: dict[Any, float] = {}  # of a row in plain Python, [s]
+_patience: dict[Any, float] = {}  # on plain answers before it is compiled, [s]
 _spent: dict[Any, float] = {}  # on plain answers so far, [s]
 
 
@@ -38,18 +39,22 @@ class Own(NamedTuple):
     make: Callable[[], Any]
 
 
-def entry(plain_cost: float) -> Callable[[Kernel], Kernel]:
+def entry(plain_cost: float, patience: float | None = None) -> Callable[[Kernel], Kernel]:
     """Mark a kernel that answers rows: it ends in ``(start, stop)``, and returns and allocates nothing.
 
     Parameters
     ----------
     plain_cost : float
         Time that a row takes in plain Python, [s].
+    patience : float, optional
+        Time to spend in plain Python before it is compiled, [s]: about as much as that takes, if it is rarely needed.
     """
 
     def mark(function: Kernel) -> Kernel:
         ENTRIES.append(function)
         _costs[function], _spent[function] = plain_cost, 0.0
+        if patience is not None:
+            _patience[function] = patience
         return kernel(function)
 
     return mark
@@ -96,6 +101,6 @@ def _machine_code(function: Callable[..., None], count: int, arguments: tuple[An
     if ahead < _LOADING:
         return None
     code = native.load(function, arguments)
-    if code is None and ahead > _PATIENCE:
+    if code is None and ahead > _patience.get(function, _PATIENCE):
         code = native.build(function, arguments)
     return code
