@@ -1,6 +1,8 @@
 """Tests that need more than the light environment say so, and name the command that brings the rest."""
 
+from contextlib import AbstractContextManager, nullcontext
 from importlib.util import find_spec
+from itertools import islice
 from pathlib import Path
 
 import pytest
@@ -17,17 +19,17 @@ PACKAGES = {
     "page": ("nicegui", "playwright"),
     "docs": ("sphinx",),
     "lint": ("mypy",),
+    "numba": ("numba", "llvmlite"),  # comes with the package, which can do without it
 }
 
 # Files and folders that need one of them as a whole; a single test has the mark ``needs``.
 FILES = {
-    "src/pendular/dataset.py": "data",
-    "src/pendular/interpolation.py": "data",
+    "src/pendular/dataset": "data",
     "tests/test_dataset.py": "data",
-    "src/pendular/dem/lammps/attach.py": "lammps",
+    "src/pendular/codes/lammps/attach.py": "lammps",
     "tests/test_lammps.py": "lammps",
     "tests/test_lammps_examples.py": "lammps",
-    "src/pendular/web": "page",
+    "src/pendular/front/explorer": "page",
     "tests/test_web.py": "page",
     "tests/test_web_page.py": "page",
 }
@@ -36,12 +38,31 @@ FILES = {
 def why_not(group: str) -> str:
     """What of a group is not installed, and the command that brings it; empty if all is there."""
     absent = [package for package in PACKAGES[group] if find_spec(package) is None]
-    return f"{', '.join(absent)} not installed: uv run --group test --group {group} pytest" if absent else ""
+    command = "pip install numba" if group == "numba" else f"uv run --group test --group {group} pytest"
+    return f"{', '.join(absent)} not installed: {command}" if absent else ""
 
 
 def group_of(path: Path) -> str | None:
     """Group that a file needs as a whole."""
     return next((group for name, group in FILES.items() if path.is_relative_to(ROOT / name)), None)
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Compile the solver before several workers start, which would each do so at once."""
+    workers = config.getoption("numprocesses", 0)
+    if not workers or config.option.collectonly or why_not("numba"):
+        return
+    from pendular.front.ahead import compile_ahead
+    from pendular.ground import native
+
+    def notice() -> AbstractContextManager[None]:
+        config.get_terminal_writer().line("compiling for all workers and all later runs")
+        return nullcontext()
+
+    native.notices.append(notice)
+    for _ in islice(compile_ahead(), 3):  # the others are small
+        pass
+    native.notices.remove(notice)
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -40,6 +40,7 @@ def asked(law, quantity, rng):
 LARGEST = {"asymptotic": 1e-8, "bagheri2024": 1e-10, "toroidal2020": 1e-10}
 
 
+@pytest.mark.needs("numba")
 @pytest.mark.parametrize("law", LAWS, ids=by_name)
 def test_plain_python_answers_as_compiled(law):
     print(f"seed {SEED}")

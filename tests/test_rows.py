@@ -19,6 +19,7 @@ from pendular.exact.state import State
 from pendular.ground import native, rows
 
 SEED = 20261129
+COMPILER = pytest.mark.needs("numba")
 ASKED = {"stable": batch.STABLE, "unstable": batch.UNSTABLE, "rupture": batch.RUPTURE, "lower": batch.LOWER_END}
 FLAT = {"stiffness"}  # infinite at the end of a branch, and steep next to it
 WITHOUT_NUMBA = """
@@ -60,18 +61,17 @@ def plain(monkeypatch):
 
 
 @pytest.fixture
-def by_machine(monkeypatch):
+def by_machine():
     """Everything by machine code."""
 
     def ask(*question):
-        with monkeypatch.context() as patch:
-            patch.setattr(rows, "_LOADING", -1.0)
-            patch.setattr(rows, "_PATIENCE", -1.0)
+        with rows.by_machine_code():
             return batch.answer(*question)
 
     return ask
 
 
+@COMPILER
 @pytest.mark.parametrize("asked", ASKED)
 @pytest.mark.parametrize("control", [SUCTION, VOLUME])
 def test_plain_python_and_machine_code_agree(control, asked, plain, by_machine):
@@ -85,6 +85,7 @@ def test_plain_python_and_machine_code_agree(control, asked, plain, by_machine):
         np.testing.assert_allclose(plainly[:, column], compiled[:, column], rtol=tolerance, atol=1e-12, err_msg=field)
 
 
+@COMPILER
 @pytest.mark.parametrize("threads", ["1", "2", "5"])
 def test_the_number_of_threads_changes_no_bit(threads, by_machine, monkeypatch):
     monkeypatch.setattr(batch, "_CHUNK", 7)
@@ -143,6 +144,7 @@ print(json.dumps([float(bridge.force.sum())]))
     assert found == pytest.approx(force.sum(), rel=1e-13)
 
 
+@COMPILER
 def test_who_keeps_asking_is_answered_by_machine_code(monkeypatch):
     chosen = []
     monkeypatch.setattr(native, "load", lambda *_: chosen.append("load"))
@@ -158,6 +160,28 @@ def test_who_keeps_asking_is_answered_by_machine_code(monkeypatch):
     assert chosen == ["load", "load", "build"]
 
 
+@COMPILER
+@pytest.mark.long
+def test_what_is_compiled_ahead_is_found_on_disk_by_later_processes(tmp_path):
+    """One file for each kind of kernel, and a later process that is not patient loads it in place of compiling."""
+    environment = os.environ | {"PENDULAR_CACHE_DIR": str(tmp_path)}
+    script = """
+from itertools import islice
+from pendular.front.ahead import compile_ahead
+print(*islice(compile_ahead(), 2))
+"""
+    done = [
+        subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, env=environment, check=True)
+        for _ in range(2)
+    ]
+    assert [process.stdout.split() for process in done] == [["bridges", "and", "rupture", "curves"]] * 2
+    assert sorted(path.name.partition("-")[0] for path in tmp_path.iterdir()) == [
+        "bridge_range",
+        "curve_range",
+        "meridian_range",
+    ]
+
+
 # -- machine code on disk ----------------------------------------------------------------------------------------------
 
 SMALL = """
@@ -166,9 +190,9 @@ import numpy as np
 from pendular.ground import native, rows
 from own import double
 out = np.zeros(3)
-rows._LOADING = rows._PATIENCE = -1.0
 loads = native.load(double, (np.array([1.0, 2.0, 3.0]), out, 0, 3)) is not None
-rows.over_rows(double, 3, 2, np.array([1.0, 2.0, 3.0]), out)
+with rows.by_machine_code():
+    rows.over_rows(double, 3, 2, np.array([1.0, 2.0, 3.0]), out)
 print(out.sum(), int(loads))
 """
 OWN = """
@@ -214,17 +238,20 @@ def finished(process):
     return float(total), int(loads)
 
 
+@COMPILER
 def test_machine_code_is_kept_and_used(small):
     assert finished(started(small)) == (12.0, 0)
     assert finished(started(small)) == (12.0, 1)
 
 
+@COMPILER
 def test_machine_code_of_other_source_is_not_used(small):
     finished(started(small))
     (small / "factor.py").write_text("FACTOR = 5.0\n")
     assert finished(started(small)) == (30.0, 0)
 
 
+@COMPILER
 @pytest.mark.parametrize("damage", [lambda code: b"", lambda code: code[:-9], lambda code: code[:-1] + b"x"])
 def test_damaged_machine_code_is_made_anew(small, damage):
     finished(started(small))
@@ -234,12 +261,14 @@ def test_damaged_machine_code_is_made_anew(small, damage):
     assert finished(started(small)) == (12.0, 1)
 
 
+@COMPILER
 def test_a_folder_that_cannot_be_written_only_costs_time(small):
     (small / "kept").write_text("a file")
     assert finished(started(small)) == (12.0, 0)
     assert finished(started(small)) == (12.0, 0)
 
 
+@COMPILER
 def test_processes_that_start_at_once_disturb_each_other_not(small):
     assert {finished(process)[0] for process in [started(small) for _ in range(4)]} == {12.0}
     assert finished(started(small)) == (12.0, 1)
@@ -251,6 +280,7 @@ def test_types_are_told_apart():
     assert len({native._types_of((kind,)) for kind in kinds}) == len(kinds)
 
 
+@COMPILER
 def test_an_infinite_stiffness_at_rupture_passes_through_machine_code(by_machine):
     states, statuses = by_machine(batch.RUPTURE, SUCTION, questions(SUCTION, 8))
     assert (statuses == batch.FOUND).all()

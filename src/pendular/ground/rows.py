@@ -4,8 +4,10 @@ Plain Python answers a few rows in milliseconds. Loading machine code takes a te
 minute. A process that keeps asking changes over once it has spent on plain answers what the change would cost.
 """
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -16,7 +18,7 @@ from . import native
 from .compile import Kernel, has_compiler, kernel
 from .threads import thread_count
 
-__all__ = ["ENTRIES", "Own", "element", "entry", "over_rows"]
+__all__ = ["ENTRIES", "Own", "by_machine_code", "element", "entry", "over_rows"]
 
 _LOADING = 0.15  # of machine code, [s]
 _PATIENCE = 3.0  # on plain answers before an entry is compiled that tells no other, [s]
@@ -25,6 +27,7 @@ ENTRIES: list[Callable[..., None]] = []  # all kernels that arrays call
 _costs: dict[Any, float] = {}  # of a row in plain Python, [s]
 _patience: dict[Any, float] = {}  # on plain answers before it is compiled, [s]
 _spent: dict[Any, float] = {}  # on plain answers so far, [s]
+_always: list[None] = []  # one for each time that machine code was asked for, whatever it costs
 
 
 @kernel
@@ -89,6 +92,16 @@ def over_rows(
             pass
 
 
+@contextmanager
+def by_machine_code() -> Iterator[None]:
+    """Answer by machine code however few the rows, and make it where there is none: what is done ahead of use."""
+    _always.append(None)
+    try:
+        yield
+    finally:
+        _always.pop()
+
+
 def _owned(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
     return tuple(argument.make() if isinstance(argument, Own) else argument for argument in arguments)
 
@@ -97,7 +110,7 @@ def _machine_code(function: Callable[..., None], count: int, arguments: tuple[An
     """Machine code of an entry, if it pays: None to run it as it stands."""
     if not has_compiler():
         return None
-    ahead = _spent[function] + count * _costs[function]
+    ahead = math.inf if _always else _spent[function] + count * _costs[function]
     if ahead < _LOADING:
         return None
     code = native.load(function, arguments)
