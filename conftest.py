@@ -1,5 +1,6 @@
 """Tests that need more than the light environment say so, and name the command that brings the rest."""
 
+import sys
 from contextlib import AbstractContextManager, nullcontext
 from importlib.util import find_spec
 from itertools import islice
@@ -56,7 +57,7 @@ def pytest_configure(config: pytest.Config) -> None:
     from pendular.ground import native
 
     def notice() -> AbstractContextManager[None]:
-        config.get_terminal_writer().line("compiling for all workers and all later runs")
+        print("compiling for all workers and all later runs", file=sys.stderr)  # noqa: T201 - no reporter is there yet
         return nullcontext()
 
     native.notices.append(notice)

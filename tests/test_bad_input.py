@@ -23,7 +23,7 @@ def known():
     packing = {"table": table, "positions": PLACES, "radii": [5e-5, 5e-5], "surface_tension": 0.07}
     state = pl.contact_forces(pairs=[(0, 1)], control=3e4, **packing).state
     data = pl.make_dataset(shape=(10, 10), size_ratio=1.0, contact_angle=0.3)
-    heap = pl.lattice_packing("sc", 3, 5e-5)
+    heap = pl.lattice_packing("simple_cubic", 3, 5e-5)
     return {"table": table, "packing": packing, "state": state, "data": data, "heap": heap}
 
 
@@ -71,7 +71,10 @@ CALLS = {
         ON_LAW | {"separation_star": 0.0, "kappa1": 1.0, "kappa2": 1.0},
     ),
     "laws.rupture_star": lambda known: (pl.laws.rupture_star, ON_LAW | {"kappa1": 1.0, "kappa2": 1.0}),
-    "lattice_packing": lambda known: (pl.lattice_packing, {"kind": "sc", "cells": 3, "radius": 5e-5, "gap": 0.0}),
+    "lattice_packing": lambda known: (
+        pl.lattice_packing,
+        {"kind": "simple_cubic", "cells": 3, "radius": 5e-5, "gap": 0.0},
+    ),
     "random_packing": lambda known: (pl.random_packing, {"count": 60, "radii": 5e-5, "friction": 0.0, "seed": 0}),
     "sieved_radii": lambda known: (
         pl.sieved_radii,

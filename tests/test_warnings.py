@@ -42,7 +42,9 @@ CALLS = {
     ),
     ("recommend", "failure"): (lambda: pl.recommend(reduced_suction=(10.0, 20.0)), pl.ConvergenceWarning),
     ("wet", "meetings"): (
-        lambda: pl.wet(pl.lattice_packing("fcc", 3, 5e-5), 0.0, suction=100.0, liquid=WATER, method="exact"),
+        lambda: pl.wet(
+            pl.lattice_packing("face_centred_cubic", 3, 5e-5), 0.0, suction=100.0, liquid=WATER, method="exact"
+        ),
         pl.PackingWarning,
     ),
     ("tabulate", "tolerance"): (lambda: pl.tabulate(0.3, **NARROW), pl.ToleranceWarning),
