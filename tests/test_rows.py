@@ -152,10 +152,10 @@ def test_who_keeps_asking_is_answered_by_machine_code(monkeypatch):
     monkeypatch.setattr(rows, "_spent", dict.fromkeys(rows._spent, 0.0))
     batch.answer(batch.STABLE, SUCTION, questions(SUCTION, 2))
     assert chosen == []
-    rows._spent[batch.bridge_range] = 1.0
+    rows._spent[batch.stable_range] = 1.0
     batch.answer(batch.STABLE, SUCTION, questions(SUCTION, 2))
     assert chosen == ["load"]
-    rows._spent[batch.bridge_range] = 10.0
+    rows._spent[batch.stable_range] = 10.0
     batch.answer(batch.STABLE, SUCTION, questions(SUCTION, 2))
     assert chosen == ["load", "load", "build"]
 
@@ -178,7 +178,9 @@ print(*islice(compile_ahead(), 2))
     assert sorted(path.name.partition("-")[0] for path in tmp_path.iterdir()) == [
         "bridge_range",
         "curve_range",
+        "end_range",
         "meridian_range",
+        "stable_range",
     ]
 
 

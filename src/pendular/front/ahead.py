@@ -32,6 +32,7 @@ def _ask_bridges() -> None:
     bridge(_PAIR, _GAPS, suction=20e3, liquid=_LIQUID)
     bridge(_PAIR, 1e-6, volume=1e-15, liquid=_LIQUID).profile()
     rupture(_PAIR, suction=20e3, liquid=_LIQUID)
+    bridge(_PAIR, _GAPS, suction=20e3, liquid=_LIQUID, branch="unstable")  # by the whole solver
 
 
 def _ask_curve() -> None:
