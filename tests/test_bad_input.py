@@ -100,7 +100,7 @@ CALLS = {
         {"source": known["heap"], "contact_angle": 0.1, "suction": 2e4, "liquid": WATER, "blocks": (1, 1, 1)},
     ),
     "load_state": lambda known: (pl.load_state, {"path": "no.npz"}),
-    "read_packing": lambda known: (pl.read_packing, {"path": "no.dump", "unit": "mm"}),
+    "read_packing": lambda known: (pl.read_packing, {"path": "no.dump"}),
     "write_packing": lambda known: (pl.write_packing, {"path": "no.vtu", "heap": known["heap"]}),
     "packing_dataset": lambda known: (pl.packing_dataset, {"heap": known["heap"]}),
 }

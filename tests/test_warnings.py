@@ -17,6 +17,7 @@ DRY = {"humidity": 0.5, "liquid": WATER}
 FAR = {"suction": 1.0, "liquid": WATER, "method": "zhao2020"}
 NARROW = {"reduced": (20.0, 30.0), "radius_ratio": (1, 1), "tolerance": 1e-6}
 GAPS = np.array([0.0, 1e-6])
+OVERLAPPING = pl.Packing([(0.0, 0.0, 0.0), (9e-5, 0.0, 0.0)], 5e-5)
 
 # What can warn, and a call that does: if the solver fails, beyond the Kelvin equation, and outside of a law's range.
 CALLS = {
@@ -41,10 +42,8 @@ CALLS = {
         pl.ConvergenceWarning,
     ),
     ("recommend", "failure"): (lambda: pl.recommend(reduced_suction=(10.0, 20.0)), pl.ConvergenceWarning),
-    ("wet", "meetings"): (
-        lambda: pl.wet(
-            pl.lattice_packing("face_centred_cubic", 3, 5e-5), 0.0, suction=100.0, liquid=WATER, method="exact"
-        ),
+    ("wet", "noise"): (
+        lambda: pl.wet(OVERLAPPING, 0.0, suction=1e5, liquid=WATER, method="exact"),
         pl.PackingWarning,
     ),
     ("tabulate", "tolerance"): (lambda: pl.tabulate(0.3, **NARROW), pl.ToleranceWarning),

@@ -144,11 +144,15 @@ class _Rebound(ModuleType):
         return value
 
 
-def let_numba_call_kernels() -> None:
-    """Let compiled code of anyone call kernels as they stand; Numba calls this when it compiles for the first time."""
-    from numba.core.registry import cpu_target
+def let_numba_call_kernels(context: Any = None) -> None:
+    """Let compiled code of anyone call kernels as they stand; Numba calls this when it compiles for the first time.
 
-    context = cpu_target.typing_context
+    ``context`` is the typing context of another target than the processor.
+    """
+    if context is None:
+        from numba.core.registry import cpu_target
+
+        context = cpu_target.typing_context
     if context not in _typing_contexts:
         _typing_contexts.append(context)
         for function in _fastmath:

@@ -133,6 +133,8 @@ def wet_in_blocks(
     """
     one_of("path", path, ("drying", "wetting"))
     asked = in_range("suction", scalar("suction", suction, "Pa"), 0.0, brackets="(]", unit="Pa")
+    if not isinstance(blocks, tuple | list) or len(blocks) != 3:
+        raise ValueError(f"blocks: {blocks!r} is not three numbers")
     counts = np.array([whole_number("blocks", count, 1) for count in blocks])
     lengths, sizes, ask = _source_of(source, cell, radius_range)
     rules = {"formation_distance": formation_distance, "condensation": condensation, "method": method}

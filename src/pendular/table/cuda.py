@@ -20,13 +20,18 @@ except ModuleNotFoundError as absent:
 from numpy.typing import ArrayLike
 
 from ..ground.check import numbers, result_array
-from ..ground.compile import compiled, kernel
+from ..ground.compile import compiled, kernel, let_numba_call_kernels
 from ..ground.rows import element
 from . import kernels
 from .kernels import Grid
 from .table import Table, operands_of
 
 __all__ = ["DeviceTable", "to_device"]
+
+if not config.ENABLE_CUDASIM:  # type: ignore[attr-defined]
+    from numba.cuda.descriptor import cuda_target
+
+    let_numba_call_kernels(cuda_target.typing_context)  # in kernels under ``@cuda.jit``
 
 Operand = ArrayLike | Any  # numbers, or any array on the device
 

@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...ground.check import instance
 from ...packing.heap import Packing
 from .bridge_table import UNITS, Bridges, quantities
 
@@ -42,6 +43,7 @@ def packing_dataset(heap: Packing, bridges: Bridges | None = None) -> "xarray.Da
     >>> packing_dataset(heap).radius.attrs["units"]
     'm'
     """
+    instance("heap", heap, Packing)
     try:
         import xarray
     except ImportError as error:
