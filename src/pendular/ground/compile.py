@@ -160,10 +160,8 @@ def let_numba_call_kernels(context: Any = None) -> None:
 
 
 def _introduce(context: Any, function: Callable[..., Any]) -> None:
-    from numba import types
-
     if function not in _writers:
-        context.insert_global(function, types.Dispatcher(compiled(function)))
+        context.insert_global(function, context.resolve_value_type(compiled(function)))
 
 
 def fastmath_of(function: Callable[..., Any]) -> set[str]:
