@@ -11,21 +11,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import __version__
+from ..table.binary import CHANNELS
 from ..table.kernels import CELLS, Q_COUNT, SIZE_CELLS, U_COUNT, Grid
-from ..table.polynomial import CELL, CONTROL_TERMS, LANES, LEAST_SIZE_TERMS, RUPTURE_CELL, RUPTURE_SIZE_TERMS
+from ..table.polynomial import CELL, LANES, RUPTURE_CELL
 from ..table.task import holds_none
 
 if TYPE_CHECKING:
     from ..table import Table
 
-__all__ = ["LARGEST", "bound_lines", "c_header"]
+__all__ = ["LARGEST", "bound_lines", "c_header", "table_header"]
 
 LARGEST = 1_000_000  # [bytes]
 
 Floats = NDArray[np.float64]
 _INTEGER = 2.0**31  # below it, a coefficient is written as an int
-_ALMOST_ONE = 1.0 - 2.0**-53
+_NUMBERS = ("rupture", "force", "liquid_numbers")  # arrays of the grid that are channels of the header
 _IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+_TAKEN = "pendular_table_"
 _LICENCE = "Copyright (c) 2026, the Pendular developers. SPDX-License-Identifier: BSD-3-Clause. Without any warranty."
 
 
@@ -34,40 +36,39 @@ class _Control(NamedTuple):
 
     control_star: str
     unit: str
-    reduce: str
     liquid: str
     liquid_meaning: str
     liquid_comment: str
-    liquid_scale: str
 
 
 _CONTROLS = {
     "suction": _Control(
         control_star="suction Rm/gamma",
         unit="Pa: gas pressure minus liquid pressure",
-        reduce="return suction / surface_tension * mean_radius;",
         liquid="volume",
         liquid_meaning="of the liquid [m3]",
-        liquid_comment="Liquid volume [m3]; NaN where there is no bridge.",
-        liquid_scale="place.radius * place.radius * place.radius / (place.control * place.control)",
+        liquid_comment="Volume of the liquid [m3]",
     ),
     "volume": _Control(
         control_star="volume/Rm^3",
         unit="m3",
-        reduce="(void)surface_tension;\n    return volume / (mean_radius * mean_radius * mean_radius);",
         liquid="suction",
         liquid_meaning="gas pressure minus liquid pressure [Pa]",
-        liquid_comment="Suction [Pa]; NaN where there is no bridge.",
-        liquid_scale="surface_tension / (place.radius * sqrt(place.control))",
+        liquid_comment="Gas pressure minus liquid pressure [Pa]",
     ),
 }
+
+
+def table_header() -> str:
+    """Text of `pendular_table.h`, the C header that opens tables and answers what they answer."""
+    return (files(__package__) / "pendular_table.h").read_text(encoding="utf-8")
 
 
 def c_header(table: "Table", *, prefix: str = "pendular_") -> str:
     """Text of a C header that answers what a table answers, in C99, C++11 and CUDA.
 
-    The numbers of a cell are stored as integers times a power of two, as far as they are: that is short, exact, and
-    evaluated in the order of the Python kernels.
+    It is the text of :func:`table_header` with the numbers of the table, and functions that know them. The numbers of a
+    cell are stored as integers times a power of two, as far as they are: that is short, and exact.
 
     Parameters
     ----------
@@ -79,8 +80,8 @@ def c_header(table: "Table", *, prefix: str = "pendular_") -> str:
     Returns
     -------
     str
-        Functions ``force``, ``stiffness``, ``rupture_distance``, and ``volume``, or ``suction`` for a table of
-        constant volume, each after the prefix.
+        Functions ``force``, ``stiffness``, ``energy``, ``rupture_distance``, and ``volume``, or ``suction`` for a table
+        of constant volume, each after the prefix.
 
     Raises
     ------
@@ -96,6 +97,8 @@ def c_header(table: "Table", *, prefix: str = "pendular_") -> str:
     """
     if not _IDENTIFIER.fullmatch(prefix):
         raise ValueError(f"prefix: {prefix!r} does not begin a name in C; write it like pendular_")
+    if prefix == _TAKEN:
+        raise ValueError(f"prefix: {prefix!r} begins names of the header itself; choose another one")
     if table.control == "suction" and holds_none(table.contact_angle):
         first, second = np.rad2deg(table.contact_angle)
         raise ValueError(
@@ -126,23 +129,29 @@ def _about(table: "Table") -> dict[str, object]:
         "ratios": _ratios(grid),
         "liquid_gap": " " * (len("stiffness") - len(liquid) + 3),
         "bounds": "\n".join(f"   {line}" for line in bound_lines(table)),
-        "low": _decimal(grid.low),
-        "high": _decimal(grid.high),
-        "is_ratio_covered": _ratio_condition(grid),
-        "side": f"(radius1 > radius2 ? {grid.cells} : 0) + " if grid.sides == 2 else "",
-        "size": "(s * s)" if grid.sides == 1 else "s",
-        "shift": grid.shift,
-        "first": grid.first,
-        "count": grid.cells,
-        "almost_one": _decimal(_ALMOST_ONE),
-        "two_pi": _decimal(2.0 * math.pi),
-        "lanes": LANES,
-        "rupture_cell": RUPTURE_CELL,
-        "rupture_size_terms": RUPTURE_SIZE_TERMS,
-        "cell": CELL,
-        "control_terms": CONTROL_TERMS,
-        "least_size_terms": LEAST_SIZE_TERMS,
+        "evaluator": table_header(),
+        "table": ", ".join(_members(table)),
+        "channels": ", ".join(_channels(table)),
     }
+
+
+def _channels(table: "Table") -> Iterator[str]:
+    """Initialisers of the channels, in their order."""
+    names = (("rupture_distance", "rupture"), ("force", "force"), (_CONTROLS[table.control].liquid, "liquid"))
+    for channel, name in names:
+        _, _, factor, *powers = CHANNELS[channel]
+        bound = _number(getattr(table.bound, name))
+        yield f"{{{name}, {_decimal(factor)}, {bound}, {', '.join(str(int(power)) for power in powers)}}}"
+
+
+def _members(table: "Table") -> Iterator[str]:
+    """Initialisers of the members of a table after its channels."""
+    grid = table.grid
+    yield from map(_decimal, (grid.low, grid.high, grid.least_ratio, grid.largest_ratio))
+    yield from map(str, (grid.shift, grid.first, grid.cells, grid.sides, len(_NUMBERS), int(grid.is_volume)))
+    for pair in (table.contact_angle, table.reduced, table.radius_ratio):
+        yield f"{{{', '.join(map(_number, pair))}}}"
+    yield _decimal(table.tolerance)
 
 
 def _ratios(grid: Grid) -> str:
@@ -150,39 +159,31 @@ def _ratios(grid: Grid) -> str:
     return f"{low} to {1.0 / grid.least_ratio:.10g}" if grid.least_ratio > 0.0 else f"from {low}"
 
 
-def _ratio_condition(grid: Grid) -> str:
-    """Condition on the smaller over the larger radius; a plane has ratio 0."""
-    return f"ratio >= {_decimal(grid.least_ratio)} && ratio <= {_decimal(grid.largest_ratio)}"
-
-
 def _numbers(grid: Grid) -> dict[str, str]:
     """Rows and coefficients, these in units of the largest power of two that divides all of a row."""
     arrays = [grid.rupture.reshape(-1, RUPTURE_CELL), grid.force.reshape(-1, CELL), grid.liquid.reshape(-1, CELL)]
     scaled = [array.copy() for array in arrays]
-    rows = []
-    for line, cut in zip(grid.lines, grid.cuts, strict=True):
+    units = np.empty((len(grid.lines), len(arrays)))
+    for row, cut in enumerate(grid.cuts):
         size_cells = slice(cut[SIZE_CELLS], cut[SIZE_CELLS] + cut[U_COUNT])
         cells = slice(cut[CELLS], cut[CELLS] + cut[U_COUNT] * cut[Q_COUNT])
-        units = []
-        for part, source, target in zip((size_cells, cells, cells), arrays, scaled, strict=True):
-            unit = _unit(source[part])
-            target[part] = source[part] / unit
-            units.append(unit)
-        rows.append(f"{{{','.join([*map(_decimal, [*line, *units]), *map(str, cut)])}}}")
-    names = ("rupture_numbers", "force_numbers", "liquid_numbers")
-    return {"rows": ",\n".join(rows)} | {
-        name: ",\n".join(_lines(array)) for name, array in zip(names, scaled, strict=True)
-    }
-
-
-def _lines(numbers: Floats) -> Iterator[str]:
-    for row in numbers.reshape(-1, LANES).tolist():
-        yield ",".join(map(_coefficient, row))
+        for channel, part in enumerate((size_cells, cells, cells)):
+            units[row, channel] = _unit(arrays[channel][part])
+            scaled[channel][part] = arrays[channel][part] / units[row, channel]
+    rows = {"lines": grid.lines, "cuts": grid.cuts, "units": units}
+    texts = {name: array.tolist() for name, array in rows.items()}
+    texts |= {name: array.reshape(-1, LANES).tolist() for name, array in zip(_NUMBERS, scaled, strict=True)}
+    return {name: ",\n".join(",".join(map(_coefficient, row)) for row in text) for name, text in texts.items()}
 
 
 def _coefficient(number: float) -> str:
     """Shortest of the texts that C reads as the number."""
-    return str(int(number)) if number.is_integer() and abs(number) < _INTEGER else _decimal(number)
+    return str(int(number)) if float(number).is_integer() and abs(number) < _INTEGER else _decimal(number)
+
+
+def _number(number: float) -> str:
+    """A decimal, or the name of C for infinity."""
+    return "INFINITY" if math.isinf(number) else _decimal(number)
 
 
 def _decimal(number: float) -> str:

@@ -29,8 +29,9 @@ U_SHIFT, U_FIRST, U_COUNT, Q_SHIFT, Q_FIRST, Q_COUNT, SIZE_CELLS, CELLS = range(
 
 _MANTISSA = 52
 _MANTISSA_BITS, _BITS_OF_ONE = (1 << _MANTISSA) - 1, 1023 << _MANTISSA
-# Five points are exact for the product of q and a polynomial of the seventh degree.
-_ABSCISSAE, _WEIGHTS = (tuple(numbers.tolist()) for numbers in np.polynomial.legendre.leggauss(5))
+# Five points of Gauss and Legendre are exact for the product of q and a polynomial of the seventh degree.
+_ABSCISSAE = (-0.906179845938664, -0.5384693101056831, 0.0, 0.5384693101056831, 0.906179845938664)
+_WEIGHTS = (0.23692688505618908, 0.47862867049936647, 0.5688888888888889, 0.47862867049936647, 0.23692688505618908)
 
 
 class Grid(NamedTuple):

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..ground.check import angle, as_path, in_range, numbers, one_of, quantity, result_array, scalar
 from ..ground.warn import warn
+from . import binary, storage
 from .arrays import ENERGY, FORCE, LIQUID, RUPTURE, STIFFNESS, evaluate
 from .build import build_grid, empty_grid, sample_range
 from .curve import ForceCurve, curve_of
@@ -18,7 +19,6 @@ from .holding import refuse_without_contact
 from .kernels import Grid
 from .measure import Bound, measure
 from .polynomial import aligned
-from .storage import load, save
 from .task import Task
 
 __all__ = ["Table", "ToleranceWarning", "load_table", "tabulate"]
@@ -214,7 +214,8 @@ class Table:
         Parameters
         ----------
         path : path
-            Of the file.
+            Of the file. One that ends in ``.bridges`` is of the binary format that particle codes read without Python;
+            any other is an archive of NumPy, and smaller.
         """
         description = {
             "contact_angle": self.contact_angle,
@@ -227,7 +228,9 @@ class Table:
             "cut": [self.grid.shift, self.grid.first, self.grid.cells],
             "range": [self.grid.low, self.grid.high, self.grid.least_ratio, self.grid.largest_ratio],
         }
-        save(as_path("path", path), description, {name: getattr(self.grid, name) for name in _ARRAYS})
+        place = as_path("path", path)
+        form = binary if place.suffix == binary.SUFFIX else storage
+        form.save(place, description, {name: getattr(self.grid, name) for name in _ARRAYS})
 
     def _ask(self, asked: int, out: Floats | None, *arguments: ArrayLike) -> Floats:
         named = zip(operands_of(self.control).items(), arguments, strict=True)
@@ -377,7 +380,7 @@ def load_table(path: str | PathLike[str]) -> Table:
     Parameters
     ----------
     path : path
-        Of a file written by :meth:`Table.save`.
+        Of a file written by :meth:`Table.save`, in either format; its first bytes tell which.
 
     Returns
     -------
@@ -388,7 +391,8 @@ def load_table(path: str | PathLike[str]) -> Table:
     ValueError
         If the file cannot be read, is damaged, or of another format.
     """
-    found, arrays = load(as_path("path", path))
+    place = as_path("path", path)
+    found, arrays = binary.load(place) if binary.is_binary(place) else storage.load(place)
     low_ratio, high_ratio = (float(ratio) for ratio in found["radius_ratio"])
     theta1, theta2 = found["contact_angle"]
     low, high = found["reduced"]
