@@ -481,8 +481,10 @@ PENDULAR_FUNCTION double pendular_table_value(const pendular_table *table, int a
 PENDULAR_FUNCTION double pendular_table_liquid(const pendular_table *table, double separation, double control,
     double radius1, double radius2, double surface_tension)
 {
-    return pendular_table_value(
-        table, PENDULAR_TABLE_LIQUID, separation, control, radius1, radius2, surface_tension);
+    const pendular_table_place place = pendular_table_find(table, control, radius1, radius2, surface_tension);
+    if (!pendular_table_is_bridge(&place, separation))
+        return NAN;
+    return pendular_table_of_bridge(table, PENDULAR_TABLE_LIQUID, &place, separation, surface_tension);
 }
 
 /* One answer for each contact of a block. */

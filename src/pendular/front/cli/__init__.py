@@ -4,7 +4,18 @@ Each module holds the commands of one subject. To add one: write its module, whi
 `_app.app`, and import it here; the order of the imports is that of the help.
 """
 
-from . import bridges, compile, data, export, export_c, export_pair_table, laws, packing, page  # noqa: F401, registers
+from . import (  # noqa: F401, registers the commands
+    bridges,
+    compile,
+    data,
+    export,
+    export_c,
+    export_pair_table,
+    export_table,
+    laws,
+    packing,
+    page,
+)
 from ._app import app, main
 
 __all__ = ["app", "main"]

@@ -1,0 +1,528 @@
+"""The binary file of a table, and `pendular_table.h`, which reads and answers it in C, C++ and CUDA."""
+
+import ctypes
+import math
+import shutil
+import struct
+import subprocess
+import threading
+import zlib
+from contextlib import suppress
+from pathlib import Path
+
+import numpy as np
+import pytest
+from benchmarks.c_header import CPP, WARNINGS, C, contacts, has_compiler
+
+import pendular as pl
+from pendular.codes.c_header import table_header
+from pendular.front.cli import main
+from pendular.table import binary, kernels
+
+SEED = 20
+HERE = Path(__file__).parent
+PROGRAMS = HERE / "c_programs"
+HEADERS = HERE.parent / "src" / "pendular" / "codes"
+TABLES = {
+    "any ratio": {"contact_angle": math.radians(20), "reduced": (0.1, 1e4), "tolerance": 1e-4},
+    "two angles": {
+        "contact_angle": np.deg2rad([20.0, 55.0]),
+        "reduced": (10.0, 25.0),
+        "radius_ratio": (1.0, 2.0),
+        "tolerance": 1e-4,
+    },
+    "volume": {
+        "contact_angle": math.radians(20),
+        "control": "volume",
+        "reduced": (0.01, 0.0156),
+        "radius_ratio": (1.0, 1.2),
+        "tolerance": 1e-4,
+    },
+    "dry": {"contact_angle": 2.0, "reduced": (1.0, 100.0), "tolerance": 1e-4},
+}
+RUPTURE, FORCE, LIQUID, STIFFNESS, ENERGY = 0, 1, 2, -1, -2
+PLAIN = {
+    RUPTURE: lambda grid, separation, *rest: kernels.rupture_distance(grid, *rest),
+    FORCE: kernels.force,
+    LIQUID: kernels.liquid,
+    STIFFNESS: kernels.stiffness,
+    ENERGY: kernels.energy,
+}
+SUFFIXES = {C: ".c", CPP: ".cpp", ("g++", "-std=c++11"): ".cpp"}
+WARNED = (*WARNINGS, "-pedantic")
+needs_c = pytest.mark.skipif(not has_compiler(C), reason="gcc is not installed")
+
+
+@pytest.fixture(scope="module", params=TABLES)
+def table(request):
+    return pl.tabulate(**TABLES[request.param])
+
+
+@pytest.fixture(scope="module")
+def suction_table():
+    return pl.tabulate(**TABLES["two angles"])
+
+
+@pytest.fixture(scope="module")
+def content(suction_table, tmp_path_factory):
+    """Bytes of a file."""
+    path = tmp_path_factory.mktemp("file") / "w.bridges"
+    suction_table.save(path)
+    return path.read_bytes()
+
+
+class Reader:
+    """The functions of the header, compiled and called from Python."""
+
+    def __init__(self, folder: Path, compiler: tuple[str, ...] = C, options: tuple[str, ...] = ("-O2",)) -> None:
+        source, library = folder / f"answers{SUFFIXES[compiler]}", folder / "answers.so"
+        shutil.copy(PROGRAMS / "answers.c", source)
+        include = ("-I", str(HEADERS), "-shared", "-fPIC", "-o", str(library))
+        subprocess.run([*compiler, *options, *WARNED, *include, str(source), "-lm"], check=True)
+        self.library = ctypes.CDLL(str(library))
+        for name in ("error_of", "text_of"):
+            getattr(self.library, name).restype = ctypes.c_char_p
+        for name in ("bound_of", "ask_by_name"):
+            getattr(self.library, name).restype = ctypes.c_double
+        self.library.size_of_table.restype = ctypes.c_size_t
+
+    def new(self) -> ctypes.Array:
+        """Room for a table."""
+        return ctypes.create_string_buffer(self.library.size_of_table())
+
+    def code_of(self, content: bytes, offset: int = 0) -> str:
+        """What is said of a file in memory that begins an offset behind a multiple of eight bytes."""
+        room = np.zeros(len(content) // 8 + 2)
+        place = room.ctypes.data + offset
+        ctypes.memmove(place, content, len(content))
+        code = self.library.open_bytes(ctypes.c_void_p(place), ctypes.c_size_t(len(content)), self.new())
+        return self.library.error_of(code).decode()
+
+    def open(self, path: Path) -> ctypes.Array:
+        """The table of a file."""
+        opened = self.new()
+        code = self.library.open_path(str(path).encode(), opened)
+        assert code == 0, self.library.error_of(code)
+        return opened
+
+    def ask(self, opened: ctypes.Array, asked: int, contact) -> np.ndarray:
+        """Answers for contacts."""
+        arrays = [np.array(operand, float, order="C") for operand in np.broadcast_arrays(*contact)]
+        out = np.empty(arrays[0].shape)
+        pointers = [ctypes.c_void_p(array.ctypes.data) for array in (*arrays, out)]
+        self.library.ask(opened, asked, ctypes.c_size_t(out.size), *pointers)
+        return out
+
+
+@pytest.fixture(scope="module")
+def reader(tmp_path_factory):
+    return Reader(tmp_path_factory.mktemp("c"))
+
+
+@pytest.fixture
+def run(capsys):
+    """Run the command in this process; returns its exit status, output and errors."""
+
+    def run_with(*arguments) -> tuple[int, str, str]:
+        with pytest.raises(SystemExit) as end:
+            main([*map(str, arguments)])
+        return (end.value.code, *capsys.readouterr())
+
+    return run_with
+
+
+def sealed(content: bytes) -> bytes:
+    """The bytes with the size and the checksum that belong to them."""
+    body = content[:16] + struct.pack("<Q", len(content)) + content[24:-4]
+    return body + zlib.crc32(body).to_bytes(4, "little")
+
+
+def changed(content: bytes, place: int, new: bytes) -> bytes:
+    return content[:place] + new + content[place + len(new) :]
+
+
+def contacts_of(table, count, seed=SEED):
+    print(f"seed {seed}")
+    separation, *rest = contacts(table, count, seed)
+    if table.rupture_distance(*rest).max() == 0.0:  # solids that hold nothing
+        separation = np.random.default_rng(seed).uniform(-1e-6, 1e-6, count)
+    return separation, *rest
+
+
+def asked_of(table, asked, contact):
+    """What the table of Python answers."""
+    liquid = "suction" if table.control == "volume" else "volume"
+    name = {RUPTURE: "rupture_distance", FORCE: "force", LIQUID: liquid, STIFFNESS: "stiffness", ENERGY: "energy"}[
+        asked
+    ]
+    return getattr(table, name)(*(contact[1:] if asked == RUPTURE else contact))
+
+
+# Python ------------------------------------------------------------------------------------------------------------
+
+
+def test_the_file_gives_the_same_table(table, tmp_path):
+    table.save(tmp_path / "w.bridges")
+    table.save(tmp_path / "w.npz")
+    (tmp_path / "w.bridges").rename(tmp_path / "renamed.npz")  # the first bytes tell, not the name
+    for path in (tmp_path / "renamed.npz", tmp_path / "w.npz"):
+        found = pl.load_table(path)
+        for name in ("contact_angle", "control", "reduced", "radius_ratio", "tolerance", "bound", "version"):
+            assert getattr(found, name) == getattr(table, name), name
+        for mine, other in zip(found.grid, table.grid, strict=True):
+            assert np.array_equal(mine, other)
+            assert getattr(mine, "dtype", None) == getattr(other, "dtype", None)
+    assert (tmp_path / "renamed.npz").stat().st_size % 64 == 4
+
+
+def test_each_truncation_and_each_change_is_refused(content):
+    for size in range(len(content)):
+        with pytest.raises(ValueError, match=r"^(is|has) "):
+            binary.unpacked(content[:size])
+    with pytest.raises(ValueError, match=r"^is shorter or longer than it says"):
+        binary.unpacked(content + bytes(64))
+    damaged = bytearray(content)
+    for place in range(len(content)):
+        damaged[place] ^= 0x10
+        with pytest.raises(ValueError, match=r"^(is|has) "):
+            binary.unpacked(bytes(damaged))
+        damaged[place] ^= 0x10
+
+
+def test_wrong_headers_under_a_right_checksum_are_refused_or_held(content, suction_table):
+    """What is opened has all its cells: a table without them would read memory that is not its own."""
+    random = np.random.default_rng(SEED)
+    print(f"seed {SEED}")
+    headers = content.index(suction_table.grid.rupture[:8].tobytes())
+    opened = 0
+    for _ in range(1500):
+        place, number = 24 + 4 * random.integers((headers - 24) // 4), random.choice([0, 1, 2, 2**31 - 1, 0x7FF00000])
+        arrays = {}
+        with suppress(ValueError):
+            _, arrays = binary.unpacked(sealed(changed(content, place, struct.pack("<I", number))))
+        if not arrays:
+            continue
+        opened += 1
+        cuts = arrays["cuts"]
+        assert (cuts >= 0).all()
+        ends = (
+            cuts[:, kernels.SIZE_CELLS] + cuts[:, kernels.U_COUNT],
+            cuts[:, kernels.CELLS] + (cuts[:, kernels.U_COUNT] * cuts[:, kernels.Q_COUNT]),
+        )
+        assert ends[0].max() * 64 == arrays["rupture"].size
+        assert ends[1].max() * 160 == arrays["force"].size == arrays["liquid"].size
+    assert 0 < opened < 1500
+
+
+FAULTS = {
+    "no table": (0, b"\x88", "it is not a table of bridges"),
+    "turned bytes": (8, b"\x01\x02\x03\x04", "its order of bytes is not that of this machine"),
+    "version": (12, b"\x02", "its version of the format is not known"),
+    "size": (16, b"\x01", "it is shorter or longer than it says"),
+    "bytes": (3000, b"\xff\xff", "it is damaged: its checksum does not agree"),
+}
+SEALED_FAULTS = {
+    "control": (24, struct.pack("<I", 2), "a number of its header is out of range"),
+    "sides": (28, struct.pack("<I", 1), "a number of its header is out of range"),
+    "angle": (56, struct.pack("<d", 4.0), "a number of its header is out of range"),
+    "channels": (36, struct.pack("<I", 17), "a number of its header is out of range"),
+    "cells": (52, struct.pack("<I", 1), "it is shorter or longer than it says"),
+    "name": (176, b"Rupture", "a channel is not described as it has to be"),
+    "first": (44, struct.pack("<i", 0), "its cells do not cover its range one after another"),
+    "range": (112, struct.pack("<d", 1e6), "its cells do not cover its range one after another"),
+    "nan": (-12, struct.pack("<d", math.nan), "a number of it is not finite"),
+}
+
+
+@pytest.mark.parametrize("fault", [*FAULTS, *SEALED_FAULTS])
+@needs_c
+def test_a_fault_is_named_in_python_and_in_c(reader, content, tmp_path, fault):
+    place, new, reason = (FAULTS | SEALED_FAULTS)[fault]
+    damaged = changed(content, place % len(content), new)
+    damaged = sealed(damaged) if fault in SEALED_FAULTS else damaged
+    assert reader.code_of(damaged) == reason
+    path = tmp_path / "w.bridges"
+    path.write_bytes(damaged)
+    with pytest.raises(ValueError, match=r"^path: '.*w\.bridges' (is|has) "):
+        pl.load_table(path)
+
+
+# C -----------------------------------------------------------------------------------------------------------------
+
+
+@needs_c
+@pytest.mark.parametrize("compiler", [C, ("g++", "-std=c++11"), CPP], ids=" ".join)
+def test_c_is_equal_to_the_kernels_to_the_last_bit(table, compiler, tmp_path):
+    if not has_compiler(compiler):
+        pytest.skip(f"{compiler[0]} is not installed")
+    reader = Reader(tmp_path, compiler, ("-O2", "-ffp-contract=off"))
+    table.save(tmp_path / "w.bridges")
+    opened = reader.open(tmp_path / "w.bridges")
+    contact = contacts_of(table, 1500)
+    for asked, kernel in PLAIN.items():
+        found = reader.ask(opened, asked, contact)
+        expected = np.array([kernel(table.grid, *map(float, each)) for each in zip(*contact, strict=True)])
+        assert np.array_equal(found, expected, equal_nan=True), asked
+        assert np.isnan(found).sum() < found.size or table.bound.bridges == 0
+    reader.library.close_table(opened)
+
+
+@needs_c
+@pytest.mark.parametrize("options", [("-O2",), ("-O3", "-march=native", "-ffp-contract=fast")], ids=" ".join)
+def test_c_is_equal_to_the_compiled_table(table, options, tmp_path):
+    """But for the rounding of sums, which differs where a processor multiplies and adds at once."""
+    reader = Reader(tmp_path, C, options)
+    table.save(tmp_path / "w.bridges")
+    opened = reader.open(tmp_path / "w.bridges")
+    contact = contacts_of(table, 100_000)
+    at_contact = (np.zeros(100_000), *contact[1:])
+    rupture = asked_of(table, RUPTURE, contact)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        q = np.sqrt(1.0 - np.maximum(contact[0], 0.0) / rupture)
+    for asked in PLAIN:
+        found, expected = reader.ask(opened, asked, contact), asked_of(table, asked, contact)
+        assert np.array_equal(np.isnan(found), np.isnan(expected)), asked
+        assert np.array_equal(found == 0.0, expected == 0.0), asked
+        is_there = np.isfinite(expected) & (expected != 0.0)
+        if not is_there.any():
+            continue
+        unit = np.abs(asked_of(table, asked, at_contact))
+        if asked == LIQUID and table.control == "volume":  # it passes through 0, as does the stiffness
+            unit = np.maximum(unit, contact[4] / contact[2])
+        if asked == STIFFNESS:
+            unit = np.maximum(unit, np.abs(asked_of(table, FORCE, at_contact)) / rupture)
+        # The root of 1 - D/D_c amplifies the rounding of D_c as rupture comes near: by 1/q, its rate by 1/q³.
+        amplified = {RUPTURE: 1.0, STIFFNESS: 1.0 + q**-3}.get(asked, 1.0 + 1.0 / q)
+        error = np.where(is_there, np.abs(found - expected) / unit / amplified, 0.0)
+        print(asked, error.max())
+        assert error.max() < 1e-15, asked
+
+
+@needs_c
+def test_blocks_names_and_threads_answer_alike(reader, suction_table, content, tmp_path):
+    path = tmp_path / "w.bridges"
+    path.write_bytes(content)
+    opened = reader.open(path)
+    contact = (*contacts_of(suction_table, 50_000)[:4], np.full(50_000, 0.07))
+    alone = {asked: reader.ask(opened, asked, contact) for asked in PLAIN}
+    pointers = [ctypes.c_void_p(np.ascontiguousarray(array).ctypes.data) for array in contact[:4]]
+    for asked, expected in alone.items():
+        out = np.empty(50_000)
+        rest = (ctypes.c_double(0.07), ctypes.c_void_p(out.ctypes.data))
+        reader.library.ask_block(opened, asked, ctypes.c_size_t(out.size), *pointers, *rest)
+        assert np.array_equal(out, expected, equal_nan=True)
+        numbers = [ctypes.c_double(array[7]) for array in contact]
+        assert np.array_equal(reader.library.ask_by_name(opened, asked, *numbers), expected[7], equal_nan=True)
+    found: dict[int, np.ndarray] = {}
+
+    def work(number: int) -> None:
+        found[number] = reader.ask(opened, list(PLAIN)[number % 5], contact)
+
+    threads = [threading.Thread(target=work, args=(number,)) for number in range(10)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for number, answer in found.items():
+        assert np.array_equal(answer, list(alone.values())[number % 5], equal_nan=True)
+
+
+@needs_c
+def test_no_answer_is_nan(reader, suction_table, content, tmp_path):
+    (tmp_path / "w.bridges").write_bytes(content)
+    opened = reader.open(tmp_path / "w.bridges")
+    whole = (1e-7, 20.0 * 0.07 / 1e-4, 1e-4, 1e-4, 0.07)
+    assert np.isfinite(reader.ask(opened, FORCE, whole))
+    odd = {place: [math.nan] for place in range(5)} | {1: [math.nan, 0.0, -1e4, math.inf, 1e3, 1e6]}
+    odd[2] = odd[3] = [math.nan, 0.0, -1e-4, math.inf, 1e-3]
+    odd[4] = [math.nan, 0.0, -0.07, math.inf]
+    for place, numbers in odd.items():
+        for number in numbers:
+            contact = [*whole[:place], number, *whole[place + 1 :]]
+            for asked in (FORCE, LIQUID, STIFFNESS, ENERGY, *([RUPTURE] if place else [])):
+                assert np.isnan(reader.ask(opened, asked, contact)), (asked, contact)
+    assert reader.ask(opened, FORCE, (math.inf, *whole[1:])) == 0.0
+    for asked in (-3, 3, 99):
+        assert np.isnan(reader.ask(opened, asked, whole))
+
+
+@needs_c
+def test_the_file_describes_its_channels(reader, table, tmp_path):
+    table.save(tmp_path / "w.bridges")
+    opened = reader.open(tmp_path / "w.bridges")
+    liquid = "suction" if table.control == "volume" else "volume"
+    bounds = (table.bound.rupture, table.bound.force, table.bound.liquid)
+    for channel, name in enumerate(("rupture_distance", "force", liquid)):
+        known = binary.CHANNELS[name]
+        told = [reader.library.text_of(opened, channel, which).decode() for which in range(3)]
+        assert told == [name, known.unit, known.bound_of]
+        assert reader.library.bound_of(opened, channel) == bounds[channel]
+        assert reader.library.channel_of(opened, name.encode()) == channel
+    assert reader.library.channel_of(opened, b"neck_radius") == -1
+    assert reader.library.text_of(opened, 3, 0) is None
+
+
+@needs_c
+def test_a_further_channel_is_answered_by_its_name(reader, suction_table, content, tmp_path):
+    """A quantity that this version does not know: 3 R̄² √c* times the polynomial of the force."""
+    start = content.index(suction_table.grid.rupture[:8].tobytes())
+    rows = content[176 + 3 * 112 : 176 + 3 * 112 + len(suction_table.grid.lines) * (6 * 8 + 8 * 4)]
+    added = struct.pack("<24s16s40s2d4i", b"wetness", b"m2", b"nothing", 3.0, 0.5, 1, 0, 2, 1)
+    headers = content[:36] + struct.pack("<I", 4) + content[40 : 176 + 3 * 112] + added + rows
+    padded = headers + bytes(-len(headers) % 64)
+    longer = sealed(padded + content[start:-4] + suction_table.grid.force.tobytes() + bytes(4))
+    path = tmp_path / "w.bridges"
+    path.write_bytes(longer)
+    opened = reader.open(path)
+    assert reader.library.channel_of(opened, b"wetness") == 3
+    contact = contacts_of(suction_table, 1000)
+    force, wetness = (reader.ask(opened, asked, contact) for asked in (FORCE, 3))
+    mean = 2.0 / (1.0 / contact[2] + 1.0 / contact[3])
+    star = contact[1] * mean / contact[4]
+    is_there = force > 0.0
+    expected = force / (2.0 * math.pi * contact[4] * mean) * 3.0 * mean**2 * np.sqrt(star)
+    np.testing.assert_allclose(wetness[is_there], expected[is_there], rtol=1e-14)
+    assert np.isnan(wetness[~is_there]).all()
+    assert np.array_equal(pl.load_table(path).grid.force, suction_table.grid.force)
+
+
+@needs_c
+def test_a_moved_table_is_the_same(reader, content, suction_table, tmp_path):
+    (tmp_path / "w.bridges").write_bytes(content)
+    opened, moved = reader.open(tmp_path / "w.bridges"), reader.new()
+    room = np.frombuffer(content[: len(content) // 8 * 8], float).copy()
+    reader.library.moved_to(opened, ctypes.c_void_p(room.ctypes.data), moved)
+    contact = contacts_of(suction_table, 1000)
+    expected = {asked: reader.ask(opened, asked, contact) for asked in PLAIN}
+    reader.library.close_table(opened)
+    for asked, answer in expected.items():
+        assert np.array_equal(reader.ask(moved, asked, contact), answer, equal_nan=True)
+
+
+@needs_c
+def test_files_that_cannot_be_opened(reader, content, tmp_path):
+    (tmp_path / "empty").write_bytes(b"")
+    reasons = {tmp_path / "none": "the file cannot be read", tmp_path: "the file cannot be read"}
+    reasons[tmp_path / "empty"] = "it is not a table of bridges"
+    for path, reason in reasons.items():
+        code = reader.library.open_path(str(path).encode(), reader.new())
+        assert reader.library.error_of(code).decode() == reason
+    assert reader.code_of(content) == "no error"
+    assert reader.code_of(content, 1) == "the memory does not begin at a multiple of eight bytes"
+    texts = [reader.library.error_of(code).decode() for code in range(14)]
+    assert len(set(texts)) == 14
+    assert texts[13] == "no code of an error"
+
+
+@needs_c
+def test_the_example_runs_as_it_says(suction_table, content, tmp_path):
+    (tmp_path / "w.bridges").write_bytes(content)
+    (tmp_path / "cut.bridges").write_bytes(content[:-1])
+    (tmp_path / "pendular_table.h").write_text(table_header())
+    shutil.copy(HERE.parent / "examples" / "c" / "from_file.c", tmp_path)
+    command = [*C, "-O2", *WARNED, "-o", "from_file", "from_file.c", "-lm"]
+    subprocess.run(command, cwd=tmp_path, check=True)
+    program = str(tmp_path / "from_file")
+    refused = subprocess.run([program, tmp_path / "cut.bridges"], check=False, capture_output=True, text=True)
+    assert refused.returncode == 1
+    assert refused.stderr.endswith("cut.bridges: it is shorter or longer than it says\n")
+    done = subprocess.run([program, tmp_path / "w.bridges"], check=True, capture_output=True, text=True)
+    rows = np.array([line.split() for line in done.stdout.splitlines()[3:]], float)
+    pair = (14e3, 50e-6, 100e-6, 0.0728)
+    for column, name in enumerate(("force", "stiffness", "energy", "volume"), 1):
+        expected = getattr(suction_table, name)(rows[:5, 0], *pair)
+        np.testing.assert_allclose(rows[:5, column], expected, rtol=2e-6)
+    assert rows[5, 1] == 0.0
+
+
+@needs_c
+@pytest.mark.long
+@pytest.mark.parametrize("name", ["two angles", "volume", "dry"])
+def test_damaged_files_are_never_read_beyond_their_end(name, tmp_path):
+    """Each byte, each truncation, and wrong numbers under a right checksum, with a compiler that watches."""
+    options = ("-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-I", str(HEADERS))
+    command = [*C, *options, *WARNED, "-o", str(tmp_path / "fuzz"), str(PROGRAMS / "fuzz.c"), "-lm"]
+    built = subprocess.run(command, check=False, capture_output=True, text=True)
+    if built.returncode != 0 and ("asan" in built.stderr or "ubsan" in built.stderr):
+        pytest.skip("gcc has no sanitizers here")
+    assert built.returncode == 0, built.stderr
+    path = tmp_path / "w.bridges"
+    pl.tabulate(**TABLES[name]).save(path)
+    done = subprocess.run([tmp_path / "fuzz", path, str(SEED), "5000"], check=False, capture_output=True, text=True)
+    print(done.stdout)
+    assert done.returncode == 0, done.stdout + done.stderr
+    whole, cut, each_byte, sealed_bytes, mixed = done.stdout.splitlines()
+    assert "no error" not in cut + each_byte
+    assert all("no error" in line for line in (whole, sealed_bytes, mixed))
+
+
+@needs_c
+def test_without_files_it_needs_no_input_and_output(tmp_path):
+    (tmp_path / "main.c").write_text(
+        '#define PENDULAR_TABLE_NO_FILES\n#include "pendular_table.h"\n#ifdef EOF\n#error "stdio.h is there"\n#endif\n'
+        "int answer(const void *bytes, size_t size, pendular_table *table);\n"
+        "int answer(const void *bytes, size_t size, pendular_table *table)\n"
+        "{\n    return pendular_table_view(bytes, size, table);\n}\n"
+    )
+    command = [*C, *WARNED, "-I", str(HEADERS), "-c", "-o", str(tmp_path / "main.o"), str(tmp_path / "main.c")]
+    subprocess.run(command, check=True)
+
+
+@pytest.mark.skipif(shutil.which("nvcc") is None, reason="nvcc is not installed")
+def test_cuda_compiles_the_evaluator(tmp_path):
+    (tmp_path / "main.cu").write_text(
+        '#include "pendular_table.h"\n'
+        "__global__ void forces(pendular_table table, const double *gap, double *out)\n"
+        "{\n    out[threadIdx.x] = pendular_table_force(&table, gap[threadIdx.x], 2e4, 5e-5, 5e-5, 0.07);\n}\n"
+        "pendular_table moved(const char *path, const void *device)\n"
+        "{\n    pendular_table table;\n    if (pendular_table_open(path, &table) != PENDULAR_TABLE_OK)\n"
+        "        return table;\n    return pendular_table_moved(&table, device);\n}\n"
+    )
+    options = ("-Werror", "all-warnings", "-Wno-deprecated-gpu-targets", "-I", str(HEADERS))
+    subprocess.run(["nvcc", *options, "-c", "main.cu"], cwd=tmp_path, check=True)
+
+
+# The command -------------------------------------------------------------------------------------------------------
+
+
+def test_the_command_writes_a_table_and_what_reads_it(run, tmp_path):
+    out, header = tmp_path / "w.bridges", tmp_path / "pendular_table.h"
+    ranges = ("--contact-angle2", 50, "--reduced-suction", 10, 20, "--radius-ratio", 1, 2, "--tolerance", 1e-4)
+    code, told, _ = run("export", "table", "--contact-angle", "20", *ranges, "--out", out, "--header", header)
+    assert code == 0
+    assert told.startswith(f"{out}: 0.0")
+    assert "Bounds of error  force " in told
+    assert header.read_text() == table_header()
+    found = pl.load_table(out)
+    assert found.contact_angle == (math.radians(20), math.radians(50))
+    assert (found.control, found.reduced, found.radius_ratio) == ("suction", (10.0, 20.0), (1.0, 2.0))
+    grains = pl.Pair((50e-6, 80e-6), (math.radians(20), math.radians(50)))
+    exact = pl.bridge(grains, 1e-6, suction=18e3, liquid=pl.Liquid(surface_tension=0.0728))
+    at_contact = found.force(0.0, 18e3, 50e-6, 80e-6, 0.0728)
+    assert found.force(1e-6, 18e3, 50e-6, 80e-6, 0.0728) == pytest.approx(exact.force, abs=1e-4 * at_contact)
+
+
+def test_the_command_writes_a_table_of_constant_volume(run, tmp_path):
+    out = tmp_path / "v.bridges"
+    ranges = ("--volume", 0.01, 0.0156, "--radius-ratio", 1, 1.2, "--tolerance", 1e-4)
+    assert run("export", "table", "--contact-angle", "20", *ranges, "--out", out)[0] == 0
+    assert pl.load_table(out).control == "volume"
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--out", "w.npz"], "out: 'w.npz' does not end in .bridges"),
+        (["--out", "none/w.bridges"], "out: 'none' is not a folder to write to"),
+        (["--out", "w.bridges", "--reduced-suction", "1", "2", "--reduced-volume", "1", "2"], "reduced-volume: given"),
+        (["--out", "w.bridges", "--tolerance", "1"], "tolerance: 1.0 is not in"),
+        (["--out", "w.bridges", "--contact-angle2", "181"], "contact-angle2: "),
+    ],
+)
+def test_bad_options_are_refused_in_one_line(run, options, message, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = run("export", "table", "--contact-angle", "20", *options)
+    assert (code, out) == (2, "")
+    assert err.startswith(f"pendular: {message}")
+    assert err.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
