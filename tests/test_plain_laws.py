@@ -28,7 +28,7 @@ def asked(law, quantity, rng):
         return pair
     gap = 10.0 ** rng.uniform(-12.0, 3.0) * rng.choice([0.0, 1.0, 1.0, 1.0, -1.0])
     if law.rupture_star and rng.random() < 0.5:
-        gap = float(law.rupture_star(*pair)) * rng.uniform(0.0, 1.05)
+        gap = answer_of(law.rupture_star, [float(number) for number in pair]) * rng.uniform(0.0, 1.05)
     if rng.random() < 0.05:
         gap = SPECIAL[rng.integers(len(SPECIAL))]
     return [gap, *pair]
