@@ -302,6 +302,8 @@ def _echo(answer: Bridge, problem: Problem) -> Bridge:
     """Give back the separation and the control that were asked, not those that the solver met to the last digits."""
     name = control_name(problem)
     asked = {"separation": problem.separation, name: control_si(problem).reshape(problem.shape)}
+    if not problem.shape:
+        return replace(answer, **{field: plain(value) for field, value in asked.items()}) if answer.exists else answer
     met = {field: plain(np.where(answer.exists, value, getattr(answer, field))) for field, value in asked.items()}
     return replace(answer, **met)
 

@@ -4,6 +4,7 @@ Lengths are divided by the smaller radius and γ is 1: each row of a problem is 
 planes they are divided by the cube root of the volume, or under suction by the gap.
 """
 
+from collections.abc import Callable
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -146,9 +147,9 @@ or ask bridge(branch='unstable') for the one between the two
 def _refuse_deep_overlap(separation: Floats, smaller_radius: Floats) -> None:
     """Refuse an overlap of half the smaller radius or more, which is no contact of grains, and any of two planes."""
     lowest = np.where(np.isinf(smaller_radius), 0.0, -_DEEPEST_OVERLAP * smaller_radius)
-    too_deep = np.argwhere(separation <= lowest)
-    if len(too_deep):  # one row of no indices for a single number
-        index = tuple(too_deep[0])
+    is_too_deep = separation <= lowest
+    if is_too_deep.any():
+        index = tuple(np.argwhere(is_too_deep)[0])  # one row of no indices for a single number
         place = str(list(map(int, index))) if index else ""
         if np.isinf(smaller_radius[index]):
             reason = "0; two planes in contact leave no room for liquid"
@@ -174,9 +175,9 @@ def _refuse_beyond_domain(
         unit, low, high, symbol = mean_radius**3, *_VOLUMES, "m^3"
     else:
         unit, low, high, symbol = liquid.surface_tension / mean_radius, -_MOST_SUCTION, _MOST_SUCTION, "Pa"
-    strange = np.flatnonzero(~are_planes & ~((value >= low * unit) & (value <= high * unit)))
-    if strange.size:
-        i = strange[0]
+    is_strange = ~are_planes & ~((value >= low * unit) & (value <= high * unit))
+    if is_strange.any():
+        i = np.flatnonzero(is_strange)[0]
         allowed = f"[{low * unit[i]:.6g}, {high * unit[i]:.6g}] {symbol}"
         scale = "R³" if control.name == "volume" else "γ/R"
         raise ValueError(
@@ -200,51 +201,80 @@ def trace(problem: Problem, points: int, limit: Limit) -> Bridge:
 def restore(problem: Problem, states: Floats, statuses: NDArray[np.int8], extra: tuple[int, ...]) -> Bridge:
     """Turn reduced states into a bridge in SI units, of the shape of the question and the extra axes."""
     shape = problem.shape + extra
-    gamma = problem.surface_tension
-    unit = np.broadcast_to(problem.length.reshape(-1, *(1,) * len(extra)), statuses.shape).reshape(shape)
-    rows = problem.rows.reshape(problem.shape + (1,) * len(extra) + (6,))
-    theta = np.broadcast_to(rows[..., (3, 5)], (*shape, 2))
-    with np.errstate(divide="ignore"):
-        radii = np.broadcast_to(1.0 / rows[..., (2, 4)], (*shape, 2)) * unit[..., None]
-    state = dict(zip(State._fields, np.moveaxis(states.reshape(*shape, -1), -1, 0), strict=True))
-    exists = np.equal(statuses, FOUND).reshape(shape)
-    has_failed = np.equal(statuses, FAILED).reshape(shape)
-    failed = int(np.count_nonzero(has_failed))
+    failed = int(np.count_nonzero(statuses == FAILED))
     if failed:
-        warn(f"the solver failed for {failed} of {exists.size} bridges", ConvergenceWarning)
+        warn(f"the solver failed for {failed} of {statuses.size} bridges", ConvergenceWarning)
+    if not shape:  # a single one is worked out in Python's numbers, by the same lines
+        reduced = _Reduced(
+            states[0].tolist(), problem.rows[0].tolist(), problem.length.item(), statuses.item(), _together, _choose
+        )
+    else:
+        rows = problem.rows.reshape(problem.shape + (1,) * len(extra) + (6,))
+        reduced = _Reduced(
+            np.moveaxis(states.reshape(*shape, -1), -1, 0),
+            np.moveaxis(np.broadcast_to(rows, (*shape, 6)), -1, 0),
+            np.broadcast_to(problem.length.reshape(problem.shape + (1,) * len(extra)), shape),
+            statuses.reshape(shape),
+            lambda *columns: np.stack(columns, axis=-1),
+            np.where,
+        )
+    return _in_si(reduced, problem.surface_tension)
 
-    def pair_of(first: Floats, second: Floats) -> Floats:
-        return np.stack([first, second], axis=-1)
 
-    wetted = pair_of(state["wetted_area1"], state["wetted_area2"])
-    energy = state["area"] - np.sum(np.cos(theta) * wetted, axis=-1)  # zero for dry and separate solids
-    force = np.where(exists, 2.0 * np.pi * gamma * unit * state["force"], 0.0)
-    force[has_failed] = np.nan
+class _Reduced(NamedTuple):
+    """States and rows of a problem by columns, of numbers or arrays; and what is done to either."""
+
+    state: Any
+    row: Any
+    unit: Any
+    status: Any
+    together: Callable[..., Floats]  # on a last axis
+    choose: Callable[[Any, Any, Any], Any]  # the first where a condition holds, else the second
+
+
+def _together(*columns: float) -> Floats:
+    return np.array(columns)
+
+
+def _choose(condition: bool, first: Any, second: Any) -> Any:
+    return first if condition else second
+
+
+def _in_si(reduced: _Reduced, gamma: float) -> Bridge:
+    """Bridge in SI units, of reduced states."""
+    columns, row, unit, status, together, choose = reduced
+    state = State(*columns)
+    exists = status == FOUND
+    square = unit * unit
+    dry = np.cos(row[3]) * state.wetted_area1 + np.cos(row[5]) * state.wetted_area2
+    energy = state.area - dry  # zero for dry and separate solids
+    units = together(unit, unit)
+    with np.errstate(divide="ignore"):
+        radii = units / together(row[2], row[4])
+    sideways = state.sideways_stable == 1.0
     values: dict[str, Any] = {
-        "separation": state["separation"] * unit,
-        "suction": gamma * state["curvature"] / unit,
-        "volume": state["volume"] * unit**3,
-        "force": force,
+        "separation": state.separation * unit,
+        "suction": gamma * state.curvature / unit,
+        "volume": state.volume * square * unit,
+        "force": choose(exists, 2.0 * np.pi * gamma * unit * state.force, choose(status == FAILED, np.nan, 0.0)),
         "exists": exists,
-        "stable": (state["unstable_directions"] == 0.0) & (state["sideways_stable"] == 1.0),
-        "unstable_directions": np.where(exists, state["unstable_directions"], 0.0).astype(int),
-        "sideways_stable": state["sideways_stable"] == 1.0,
-        "neck_radius": state["neck_radius"] * unit,
-        "neck_inside": state["neck_inside"] == 1.0,
-        "liquid_gas_area": state["area"] * unit**2,
-        "surface_energy": gamma * energy * unit**2,
-        "grand_potential": gamma * (energy + state["curvature"] * state["volume"]) * unit**2,
-        "stiffness": 2.0 * np.pi * gamma * state["stiffness"],
+        "stable": (state.unstable_directions == 0.0) & sideways,
+        "unstable_directions": np.asarray(choose(exists, state.unstable_directions, 0.0)).astype(int),
+        "sideways_stable": sideways,
+        "neck_radius": state.neck_radius * unit,
+        "neck_inside": state.neck_inside == 1.0,
+        "liquid_gas_area": state.area * square,
+        "surface_energy": gamma * energy * square,
+        "grand_potential": gamma * (energy + state.curvature * state.volume) * square,
+        "stiffness": 2.0 * np.pi * gamma * state.stiffness,
     }
     return Bridge(
         **{name: plain(value) for name, value in values.items()},
-        contact_radius=pair_of(state["radius1"], state["radius2"]) * unit[..., None],
-        half_filling_angle=pair_of(state["filling1"], state["filling2"]),
-        wetted_area=wetted * unit[..., None] ** 2,
-        capillary_tensor=pair_of(state["across_tensor"], state["axial_tensor"]) * unit[..., None] ** 2,
-        _meridian=np.stack(
-            [state["middle_radius"] * unit, state["middle_slope"], state["half_length"] * unit], axis=-1
-        ),
+        contact_radius=together(state.radius1, state.radius2) * units,
+        half_filling_angle=together(state.filling1, state.filling2),
+        wetted_area=together(state.wetted_area1, state.wetted_area2) * units * units,
+        capillary_tensor=together(state.across_tensor, state.axial_tensor) * units * units,
+        _meridian=together(state.middle_radius * unit, state.middle_slope, state.half_length * unit),
         _solid_radius=radii,
         _surface_tension=gamma,
     )

@@ -47,6 +47,8 @@ def quantity(name: str, value: object, unit: str, *, allow_inf: bool = False) ->
         ...
     ValueError: suction: '20 kPa' is not a real number
     """
+    if type(value) is float and math.isfinite(value):  # what is asked most
+        return np.array(value)
     array = numbers(name, value, unit)
     if array.size == 0:
         raise ValueError(f"{name}: an array of shape {array.shape} holds no number")
@@ -209,6 +211,8 @@ def in_range(
     ValueError: humidity: 1.2 is not in (0, 1)
     """
     array = np.asarray(values)
+    if array.ndim == 0 and low < array.item() < high:
+        return values
     too_low = ~(array >= low) if brackets[0] == "[" else ~(array > low)
     too_high = ~(array <= high) if brackets[1] == "]" else ~(array < high)
     reason = f"is not {_interval(low, high, brackets)}"
@@ -240,6 +244,8 @@ def angle(name: str, value: object) -> NDArray[np.float64]:
     ValueError: contact_angle: 20.0 rad is not in [0, pi); for degrees use numpy.deg2rad(20.0)
     """
     radians = quantity(name, value, "rad")
+    if radians.ndim == 0 and 0.0 <= radians.item() < math.pi:
+        return radians
     too_large = radians[radians >= math.pi]
     is_in_degrees = too_large.size and _LARGEST_IN_RADIANS < too_large[0] < 180.0
     hint = "for degrees use numpy.deg2rad({value})" if is_in_degrees else ""
@@ -270,6 +276,8 @@ def broadcast(**arrays: NDArray[Any]) -> tuple[NDArray[Any], ...]:
     >>> suction
     array([20000., 20000., 20000.])
     """
+    if not any(np.ndim(array) for array in arrays.values()):
+        return tuple(arrays.values())
     try:
         return np.broadcast_arrays(*arrays.values())
     except ValueError:
@@ -299,7 +307,9 @@ def plain(array: Any) -> Any:
     >>> plain(np.array(2.5)), plain(np.array([True]))
     (2.5, array([ True]))
     """
-    return array.item() if np.ndim(array) == 0 else array
+    if isinstance(array, np.ndarray | np.generic):
+        return array.item() if array.ndim == 0 else array
+    return array
 
 
 def _without_units(name: str, value: object, unit: str) -> object:

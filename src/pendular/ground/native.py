@@ -15,6 +15,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, ExitStack, contextmanager, suppress
 from functools import cache
+from numbers import Integral
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +32,8 @@ Native = Callable[..., None]
 notices: list[Callable[[], AbstractContextManager[Any]]] = []  # what tells whoever waits while a kernel is compiled
 
 _SEAL = hashlib.sha256().digest_size
-_NO_OWNER = (ctypes.c_void_p(None), ctypes.c_void_p(None))
+_ANSWERS = (ctypes.c_void_p, ctypes.c_void_p)
+_NUMBERS = {bool: ctypes.c_int8, float: ctypes.c_double, Integral: ctypes.c_int64}
 
 
 def load(function: Callable[..., None], arguments: tuple[Any, ...]) -> Native | None:
@@ -115,20 +117,30 @@ def _types_of(arguments: Any) -> str:
     return type(arguments).__name__
 
 
-def _flat(argument: Any) -> Iterator[Any]:
-    if isinstance(argument, np.ndarray):
-        yield from _NO_OWNER
-        sizes = (argument.size, argument.itemsize, argument.ctypes.data, *argument.shape, *argument.strides)
-        yield from map(ctypes.c_int64, sizes)
-    elif isinstance(argument, tuple):
-        for member in argument:
-            yield from _flat(member)
-    elif isinstance(argument, bool):
-        yield ctypes.c_int8(argument)
-    elif isinstance(argument, float):
-        yield ctypes.c_double(argument)
-    else:
-        yield ctypes.c_int64(argument)
+def _flat(arguments: tuple[Any, ...]) -> Iterator[Any]:
+    """Arguments as they are laid out: what owns an array is nobody, as code that returns nothing keeps none."""
+    for argument in arguments:
+        if isinstance(argument, np.ndarray):
+            yield from (None, None, argument.size, argument.itemsize, argument.__array_interface__["data"][0])
+            yield from argument.shape
+            yield from argument.strides
+        elif isinstance(argument, tuple):
+            yield from _flat(argument)
+        else:
+            yield float(argument) if isinstance(argument, float) else int(argument)
+
+
+def _layout(arguments: tuple[Any, ...]) -> Iterator[Any]:
+    """Types of what `_flat` gives."""
+    for argument in arguments:
+        if isinstance(argument, np.ndarray):
+            yield from (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p)
+            yield from (ctypes.c_int64,) * (2 * argument.ndim)
+        elif isinstance(argument, tuple):
+            yield from _layout(argument)
+        else:
+            kind = next(kind for kind in _NUMBERS if isinstance(argument, kind))
+            yield _NUMBERS[kind]
 
 
 # -- linking ---------------------------------------------------------------------------------------------------------
@@ -158,12 +170,14 @@ def _linked(content: bytes) -> Native:
     engine.add_object_file(llvm.ObjectFileRef.from_data(code))
     engine.finalize_object()
     address = engine.get_function_address(symbol)
-    function = ctypes.CFUNCTYPE(ctypes.c_int32)(address)  # of any arguments
+    typed: list[Callable[..., int]] = []  # by the arguments of the first call: all others have their types
     nothing, error = ctypes.c_void_p(), ctypes.c_void_p()
     answers = (ctypes.byref(nothing), ctypes.byref(error))
 
     def call(*arguments: Any) -> None:
-        if function(*answers, *_flat(arguments)) != 0:
+        if not typed:
+            typed.append(ctypes.CFUNCTYPE(ctypes.c_int32, *_ANSWERS, *_layout(arguments))(address))
+        if typed[0](*answers, *_flat(arguments)) != 0:
             raise RuntimeError(f"{symbol} failed")
 
     return call

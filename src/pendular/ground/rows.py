@@ -83,7 +83,7 @@ def over_rows(
         _spent[function] += perf_counter() - start
         return
     starts = range(0, count, chunk)
-    threads = min(thread_count(), len(starts))
+    threads = min(thread_count(), len(starts)) if len(starts) > 1 else 1
     if threads <= 1:
         code(*example)
         return

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..ground.check import numbers, result_array
-from ..ground.rows import entry, over_rows
+from ..ground.rows import Own, entry, over_rows
 from . import kernels
 from .kernels import Grid, if_bridged, q_of
 
@@ -18,10 +18,17 @@ _BLOCK, _CHUNK = 256, 65536
 _TERMS, _MOST_TERMS = 8, 128
 
 
+def _room() -> Floats:
+    """Room for a block: places in the series, and the last two sums."""
+    return np.empty((3, _BLOCK))
+
+
 @entry(plain_cost=2e-5)
-def _curve_range(rupture: float, series: Floats, separation: Floats, out: Floats, start: int, stop: int) -> None:
+def _curve_range(
+    rupture: float, series: Floats, separation: Floats, out: Floats, room: Floats, start: int, stop: int
+) -> None:
     """Clenshaw's sum, eight terms at a time for a block of contacts: the compiler makes vector instructions of it."""
-    z, last, before = np.empty((3, _BLOCK))
+    z, last, before = room[0], room[1], room[2]
     for begin in range(start, stop, _BLOCK):
         count = min(_BLOCK, stop - begin)
         for i in range(count):
@@ -71,7 +78,9 @@ class ForceCurve:
         gap = numbers("separation", separation, "m")
         result = result_array(out, gap.shape)
         flat = np.require(gap, None, ["C", "W"]).reshape(-1)
-        over_rows(_curve_range, flat.size, _CHUNK, self.rupture_distance, self.series, flat, result.reshape(-1))
+        over_rows(
+            _curve_range, flat.size, _CHUNK, self.rupture_distance, self.series, flat, result.reshape(-1), Own(_room)
+        )
         return result[()]
 
 
