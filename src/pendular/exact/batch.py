@@ -87,7 +87,7 @@ def _can_hold(task: Task) -> bool:
     return not (task.control == SUCTION and are_planes(task)) and not holds_nothing(task)
 
 
-@entry(plain_cost=2e-3)
+@entry(plain_cost=1.2e-3, patience=4.0)
 def stable_range(control: int, questions: Rows, states: Rows, statuses: Statuses, start: int, stop: int) -> None:
     """Stable bridges of the rows for which Newton's method leads there from a guess; others stay OPEN."""
     for i in range(start, stop):
@@ -100,7 +100,7 @@ def stable_range(control: int, questions: Rows, states: Rows, statuses: Statuses
             states[i, :] = math.nan
 
 
-@entry(plain_cost=8e-3)
+@entry(plain_cost=5e-3, patience=4.0)
 def end_range(
     asked: int, limit: int, control: int, questions: Rows, states: Rows, statuses: Statuses, start: int, stop: int
 ) -> None:

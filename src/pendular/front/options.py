@@ -117,16 +117,25 @@ class Question(NamedTuple):
         return fold if fold.separation > end.separation * (1.0 + 1e-9) else None
 
     def draw(
-        self, end: "Bridge", state: "Bridge | None" = None, separation: float = 0.0, *, stacked: bool = False
+        self,
+        end: "Bridge",
+        state: "Bridge | None" = None,
+        separation: float = 0.0,
+        *,
+        states: "Bridge | None" = None,
+        stacked: bool = False,
     ) -> "Figure":
-        """Picture of the pair and its force curve, with the state if there is one, else as the pair ruptures."""
+        """Picture of the pair and its force curve, with the state if there is one, else as the pair ruptures.
+
+        The states on the curve may be known already.
+        """
         from ..ask.face import curve
         from ..show.picture import figure
 
         return figure(
             self.pair,
             state,
-            self.put_to(curve),
+            self.put_to(curve) if states is None else states,
             end,
             separation=separation,
             lower_end=self.lower_end(),

@@ -4,7 +4,6 @@ Plain Python answers a few rows in milliseconds. Loading machine code takes a te
 minute. A process that keeps asking changes over once it has spent on plain answers what the change would cost.
 """
 
-import math
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
@@ -14,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from . import native
+from . import background, native
 from .compile import Kernel, has_compiler, kernel
 from .threads import thread_count
 
@@ -23,11 +22,13 @@ __all__ = ["ENTRIES", "Own", "by_machine_code", "element", "entry", "over_rows"]
 _LOADING = 0.15  # of machine code, [s]
 _PATIENCE = 3.0  # on plain answers before an entry is compiled that tells no other, [s]
 
+Told = Callable[[Callable[..., None], float], None]  # an entry, and the time that its machine code took to make, [s]
+
 ENTRIES: list[Callable[..., None]] = []  # all kernels that arrays call
 _costs: dict[Any, float] = {}  # of a row in plain Python, [s]
 _patience: dict[Any, float] = {}  # on plain answers before it is compiled, [s]
 _spent: dict[Any, float] = {}  # on plain answers so far, [s]
-_always: list[None] = []  # one for each time that machine code was asked for, whatever it costs
+_always: list[Told] = []  # one for each time that machine code was asked for, whatever it costs
 
 
 @kernel
@@ -50,7 +51,8 @@ def entry(plain_cost: float, patience: float | None = None) -> Callable[[Kernel]
     plain_cost : float
         Time that a row takes in plain Python, [s].
     patience : float, optional
-        Time to spend in plain Python before it is compiled, [s]: about as much as that takes, if it is rarely needed.
+        Time to spend in plain Python before it is compiled, [s]: the more, the longer that takes and the less often it
+        will be asked again.
     """
 
     def mark(function: Kernel) -> Kernel:
@@ -92,10 +94,14 @@ def over_rows(
             pass
 
 
+def _tell_nobody(_function: Callable[..., None], _seconds: float) -> None:
+    pass
+
+
 @contextmanager
-def by_machine_code() -> Iterator[None]:
+def by_machine_code(told: Told = _tell_nobody) -> Iterator[None]:
     """Answer by machine code however few the rows, and make it where there is none: what is done ahead of use."""
-    _always.append(None)
+    _always.append(told)
     try:
         yield
     finally:
@@ -110,10 +116,24 @@ def _machine_code(function: Callable[..., None], count: int, arguments: tuple[An
     """Machine code of an entry, if it pays: None to run it as it stands."""
     if not has_compiler():
         return None
-    ahead = math.inf if _always else _spent[function] + count * _costs[function]
+    if _always:
+        return _made(function, arguments)
+    ahead = _spent[function] + count * _costs[function]
     if ahead < _LOADING:
         return None
     code = native.load(function, arguments)
     if code is None and ahead > _patience.get(function, _PATIENCE):
+        return native.build(function, arguments)
+    if code is None:
+        background.compile_all()
+    return code
+
+
+def _made(function: Callable[..., None], arguments: tuple[Any, ...]) -> Callable[..., None] | None:
+    """Machine code of an entry, made if it is not there, and told of."""
+    code, start, took = native.load(function, arguments), perf_counter(), 0.0
+    if code is None:
         code = native.build(function, arguments)
+        took = perf_counter() - start
+    _always[-1](function, took)
     return code

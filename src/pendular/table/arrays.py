@@ -26,7 +26,7 @@ _BLOCK = 64
 _CHUNK = 65536  # contacts that one thread takes at a time
 
 
-@entry(plain_cost=1e-4)
+@entry(plain_cost=1e-4, patience=1.0)
 def block_range(
     asked: int, grid: Grid, x: Operands, out: Floats, numbers: Floats, cells: Integers, start: int, stop: int
 ) -> None:
@@ -64,7 +64,7 @@ def block_range(
             out[begin + i] = if_bridged(value, separation[i], rupture[i], beyond)
 
 
-@entry(plain_cost=1e-4)
+@entry(plain_cost=1e-4, patience=1.0)
 def scalar_range(asked: int, grid: Grid, x: Operands, out: Floats, start: int, stop: int) -> None:
     """Stiffnesses, energies or rupture distances of the contacts from start to stop."""
     for i in range(start, stop):

@@ -166,7 +166,7 @@ def _stretched(q: float, rupture: float, stretch: float) -> float:
     return math.sqrt(math.asinh(square / (a * math.sqrt(1.0 + b * b) + b * math.sqrt(1.0 + a * a))) / math.asinh(a))
 
 
-@entry(plain_cost=1e-3)
+@entry(plain_cost=1e-3, patience=0.5)
 def _sampled_range(
     sample: Sample,
     control: Floats,

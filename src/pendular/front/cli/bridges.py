@@ -20,6 +20,7 @@ _END_MEANINGS = {
     "lower_end": "below, the drop swallows the better wetted solid",
     "fold": "fold of the symmetric bridges; before it the liquid slides to one of the solids",
 }
+_SMOOTH = 201  # states of a curve that is drawn
 _SWEPT = ("force", "volume", "suction", "neck_radius")  # what the table of a sweep tells beside the separations
 
 
@@ -147,7 +148,7 @@ def curve(
     from ...show import text as report
 
     states, end = question.put_to(bridges.curve, points=points), question.put_to(bridges.rupture)
-    _draw(question, end)
+    _draw(question, end, states=states if points >= _SMOOTH else None)
     if question.form == "json":
         typer.echo(report.json_text({**report.plain_fields(states), "units": report.UNITS}))
     elif question.form == "csv":
@@ -245,7 +246,14 @@ def _refuse_picture_of_sweep(question: Question) -> None:
         raise ValueError(f"plot: draws the bridges of one {', '.join(question.control)}, not of a sweep of it")
 
 
-def _draw(question: Question, end: "Bridge | None", state: "Bridge | None" = None, separation: float = 0.0) -> None:
+def _draw(
+    question: Question,
+    end: "Bridge | None",
+    state: "Bridge | None" = None,
+    separation: float = 0.0,
+    *,
+    states: "Bridge | None" = None,
+) -> None:
     """Draw the picture, if one is wanted."""
     if question.picture is not None and end is not None:
-        save_picture(question.draw(end, state, separation), question.picture)
+        save_picture(question.draw(end, state, separation, states=states), question.picture)

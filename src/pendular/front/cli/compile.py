@@ -1,22 +1,46 @@
 """The command that compiles ahead of use, in the build of a container for one."""
 
+import os
+import time
+from pathlib import Path
+from typing import Annotated
+
 import typer
 
 from ...ground.compile import has_compiler
-from ._app import app, compiling_shown, warnings_in_one_line
+from ...ground.files import in_one_line
+from ._app import app, warnings_in_one_line
 
 __all__ = ["compile_kernels"]
 
 
-@app.command("compile", epilog="\b\nExample:\n  PENDULAR_CACHE_DIR=/opt/pendular pendular compile")
-def compile_kernels() -> None:
-    """Compile the solver ahead of its first use, once on a machine: for the build of a container."""
+@app.command("compile", epilog="\b\nExample:\n  pendular compile --folder /opt/pendular")
+def compile_kernels(
+    folder: Annotated[
+        Path | None,
+        typer.Option(
+            help="Keep it here; processes find it there by the variable PENDULAR_CACHE_DIR. Else in the user's cache.",
+            metavar="DIR",
+        ),
+    ] = None,
+) -> None:
+    """Machine code for many bridges, made ahead of time: in the build of a container, or before a cluster starts."""
     if not has_compiler():
         raise ValueError("compile: numba is not installed; pip install numba")
-    from ...ground.native import folder
-    from ..ahead import compile_ahead
+    if folder is not None:
+        with in_one_line("folder", folder):
+            folder.mkdir(parents=True, exist_ok=True)
+        os.environ["PENDULAR_CACHE_DIR"] = str(folder.resolve())
+    from ...ground.native import folder as place
+    from ..ahead import Made, compile_ahead
 
-    with warnings_in_one_line(), compiling_shown():
-        for ready in compile_ahead():
-            typer.echo(f"ready: {ready}")
-    typer.echo(f"machine code: {folder()}")
+    def told(made: Made) -> None:
+        typer.echo(f"{made.name:56} {f'{made.seconds:6.1f} s' if made.seconds else 'there already'}")
+
+    start = time.perf_counter()
+    with warnings_in_one_line():
+        for _ in compile_ahead(told):
+            pass
+    files = list(place().glob("*.o"))
+    size = sum(file.stat().st_size for file in files) / 1e6
+    typer.echo(f"{len(files)} files, {size:.1f} MB, in {place()}, after {time.perf_counter() - start:.0f} s")
