@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ..ground.compile import kernel
 from .curve import Curve, Stance
-from .ends import lower_end, quick_end, stable_bridge, unstable_bridge, upper_end
+from .ends import just_before, lower_end, quick_end, stable_bridge, unstable_bridge, upper_end
 from .equations import SUCTION
 from .follow import Nodes, Walk
 from .guess import guess_at
@@ -88,13 +88,16 @@ def bridge_of(walk: Walk, separation: float) -> Answer:
 
 @kernel
 def answer_at_end(asked: int, limit: int, task: Task) -> Answer:
-    """What a few leaps to the end of the branch tell: rupture, or that a bridge is not before it; else FAILED."""
+    """What a few leaps to the end of the branch tell: rupture, or a bridge next to it or not before it; else FAILED."""
     walk, is_known = quick_end(task, limit)
     if asked == RUPTURE:
         return _apart(end_of(walk, is_known))
-    if is_known and task.separation >= walk.stance.separation:
+    if not is_known:
+        return Answer(walk.stance, walk.curve, LOST, FAILED)
+    if task.separation >= walk.stance.separation:
         return bridge_of(walk, task.separation)
-    return Answer(walk.stance, walk.curve, walk.event, FAILED)
+    stance, is_found = just_before(walk, task.separation)
+    return Answer(stance, walk.curve, ARRIVED, FOUND if is_found else FAILED)
 
 
 @kernel

@@ -34,7 +34,7 @@ from .answers import (
 from .equations import SUCTION, VOLUME
 from .filling import MOST_FOUND, SEVERAL, Filling, store_filling
 from .follow import BRANCH_ENDS
-from .locate import FOLD
+from .locate import ARRIVED, FOLD
 from .meridian import lay_meridian
 from .morph import Task
 from .nucleus import nucleus_stored
@@ -104,7 +104,7 @@ def stable_range(control: int, questions: Rows, states: Rows, statuses: Statuses
 def end_range(
     asked: int, limit: int, control: int, questions: Rows, states: Rows, statuses: Statuses, start: int, stop: int
 ) -> None:
-    """Answer the rows whose branch ends where a few leaps from a guess lead: ruptures, and bridges not before it.
+    """Answer the rows whose branch ends where leaps from a guess lead: ruptures, and bridges next to or not before it.
 
     Others stay OPEN.
     """
@@ -114,7 +114,7 @@ def end_range(
         if _can_hold(task):
             end = answer_at_end(asked, limit, task)
             status = _end_stored(asked, end, states[i]) if end.status == FOUND else end.status
-            if status == FAILED:
+            if status == FAILED or (status != FOUND and end.event == ARRIVED):
                 status = OPEN
         statuses[i] = status
         if status != FOUND:

@@ -15,10 +15,9 @@ from numpy.typing import NDArray
 
 from ..ground.compile import kernel
 from ..ground.rows import Own, entry, over_rows
-from .algebra import Four, largest, moved
-from .curve import stance_at
-from .ends import quick_end, stable_bridge, upper_end
-from .equations import SUCTION, Held, curvature_of, force_of, held_row, system_at
+from .algebra import Four, largest
+from .ends import before_end, has_stalled, quick_end, stable_bridge, upper_end
+from .equations import SUCTION, Held, curvature_of, force_of, system_at
 from .follow import BRANCH_ENDS, Nodes, Walk, recorded
 from .locate import ARRIVED, FOLD, PITCHFORK
 from .morph import Task, held_of
@@ -30,8 +29,6 @@ Vector = NDArray[np.float64]
 Rows = NDArray[np.float64]
 
 _MOST_STEPS = 6
-_ROUNDING = 1e-13  # in the equations of a bridge
-_PROBE = 1e-3  # way from the end of a branch that tells how the separation falls
 _NEAR = 0.25  # largest miss of a foretold bridge, over its way from the last one
 
 
@@ -80,34 +77,14 @@ def _is_stable(z: Four, held: Held) -> bool:
 
 
 @kernel
-def _before(walk: Walk, separation: float) -> Four:
-    """Meridian at a separation just before the end of a branch, along its tangent: the separation is a parabola."""
-    end = walk.stance
-    bend = (stance_at(moved(end.z, -_PROBE, end.tangent), walk.curve).slope - end.slope) / _PROBE
-    fall = (end.separation - separation) * math.exp(-end.z.log_length)
-    slope = max(end.slope, 0.0)
-    square = slope * slope + 2.0 * bend * fall
-    return moved(end.z, -2.0 * fall / (slope + math.sqrt(square)), end.tangent) if square > 0.0 else end.z
-
-
-@kernel
-def _has_stalled(z: Four, separation: float, held: Held) -> bool:
-    """Whether a meridian is a bridge to rounding, which is what Newton's method ends in next to a fold."""
-    system = system_at(z, held, True, True)
-    contacts = max(abs(system.contact1.value), abs(system.contact2.value))
-    gap = abs(system.separation.value - separation) * math.exp(-z.log_length)
-    return max(contacts, gap, abs(held_row(z, system, held).value)) < _ROUNDING
-
-
-@kernel
 def _walked(first: int, walk: Walk, q: Vector, stretch: float, values: Rows, nodes: Nodes) -> int:
     """Fill in the stable bridges from a number on, each foretold by those nearer to rupture; where that came to."""
     held, end = walk.curve.held, walk.stance.z
     for i in range(first, q.size):
         separation = separation_at(q[i], walk.stance.separation, stretch)
-        guess = _before(walk, separation) if i == 0 else _foretold(q, i, end, nodes)
+        guess = before_end(walk, separation) if i == 0 else _foretold(q, i, end, nodes)
         z, is_met = newton_to(guess, separation, held, _MOST_STEPS)
-        is_met = is_met or _has_stalled(z, separation, held)
+        is_met = is_met or has_stalled(z, separation, held)
         last = end if i == 0 else recorded(nodes, i - 1)
         if not (is_met and _distance(z, guess) < _NEAR * _distance(guess, last) and _is_stable(z, held)):
             return i

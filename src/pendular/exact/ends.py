@@ -28,6 +28,9 @@ _SETTLING, _MOST_SETTLING, _AT_THE_END = 1e-4, 6, 1e-12
 _LEAST_COSINE = 0.9
 _FLAT = 1e-7  # where the signs of the ladder are those of rounding errors
 _THERE = 1e-13  # miss of a separation, over ℓ, that is none
+_SETTLED = 1e-13  # miss of the equations of a bridge that rounding leaves
+_BACK = 1e-3  # way from the end of a branch that tells how the separation falls
+_NEAR = 0.25  # largest miss of a foretold bridge, over its way from the end
 _NOWHERE = Four(0.0, 0.0, 0.0, 0.0)
 
 
@@ -163,6 +166,42 @@ def quick_end(task: Task, stops_at: int) -> tuple[Walk, bool]:
     has_forked = event == FOLD and end.margin * start.margin < 0.0
     is_found = is_found and end.separation > start.separation and end.opening > 0.0
     return Walk(event, with_unstable(end, 1 if has_forked else 0), curve, 0, 1.0), is_found
+
+
+@kernel
+def before_end(walk: Walk, separation: float) -> Four:
+    """Meridian at a separation just before the end of a branch, along its tangent: the separation is a parabola."""
+    end = walk.stance
+    bend = (stance_at(moved(end.z, -_BACK, end.tangent), walk.curve).slope - end.slope) / _BACK
+    fall = (end.separation - separation) * math.exp(-end.z.log_length)
+    slope = max(end.slope, 0.0)
+    square = slope * slope + 2.0 * bend * fall
+    return moved(end.z, -2.0 * fall / (slope + math.sqrt(square)), end.tangent) if square > 0.0 else end.z
+
+
+@kernel
+def has_stalled(z: Four, separation: float, held: Held) -> bool:
+    """Whether a meridian is a bridge to rounding, which is what Newton's method ends in next to a fold."""
+    system = system_at(z, held, True, True)
+    contacts = max(abs(system.contact1.value), abs(system.contact2.value))
+    gap = abs(system.separation.value - separation) * math.exp(-z.log_length)
+    return max(contacts, gap, abs(held_row(z, system, held).value)) < _SETTLED
+
+
+@kernel
+def just_before(walk: Walk, separation: float) -> tuple[Stance, bool]:
+    """The stable bridge at a separation next to the end of a branch, and whether it was found."""
+    guess = before_end(walk, separation)
+    z, is_met = newton_to(guess, separation, walk.curve.held, _MOST_STEPS)
+    way, miss = _between(guess, walk.stance.z), _between(z, guess)
+    stance = stance_at(z, walk.curve)
+    is_met = is_met or has_stalled(z, separation, walk.curve.held)
+    return stance, is_met and miss < _NEAR * way and stance.unstable == 0 and stance.opening > 0.0
+
+
+@kernel
+def _between(a: Four, b: Four) -> float:
+    return largest(Four(a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]))
 
 
 @kernel
