@@ -26,23 +26,23 @@ LONG = 15.0  # s
 GOALS = {"command": 0.6, "call cold": 20.0, "call warm": 0.2}  # s, ms, ms
 PAIR = ("--radius", "50um", "--contact-angle", "20")
 TABLE = "import pendular as pl; pl.tabulate(0.35)"
+ADVANCE = "The solver is being prepared"  # what the page says until it can answer
 EMPTY_CACHES = ("PENDULAR_CACHE_DIR", "NUMBA_CACHE_DIR", "MPLCONFIGDIR", "XDG_CACHE_HOME", "HOME")
 
 CALL = """
-import statistics, sys, time
+import time
 import pendular as pl
 pair, water = pl.Pair(radius=50e-6, contact_angle=0.35), pl.Liquid(surface_tension=0.0728)
-def ask(i):
+def ask(count):
     begin = time.process_time()
-    pl.bridge(pair, 1e-6 + 1e-9 * i, suction=20e3, liquid=water)
-    return 1e3 * (time.process_time() - begin)
-ask(0)  # what is imported when it is first asked for
-first = statistics.median(ask(i) for i in range(1, 6))
-begin = time.process_time()
-i = 0
-while time.process_time() - begin < 0.8:  # until machine code is worth its loading
-    ask(i := i + 1)
-print(first, statistics.median(ask(i) for i in range(1000)))
+    for i in range(count):
+        pl.bridge(pair, 1e-6 + 1e-9 * i, suction=20e3, liquid=water)
+    return 1e3 * (time.process_time() - begin) / count
+ask(1)  # what is imported when it is first asked for
+first = ask(5)
+for _ in range(8):  # until machine code is worth its loading
+    ask(50)
+print(first, min(ask(200) for _ in range(5)))
 """
 MANY = """
 import numpy as np
@@ -67,6 +67,7 @@ def command(name: str, *arguments: str, cold: float, warm: float = GOALS["comman
     return Question(name, ("-c", entry, *arguments), cold, warm)
 
 
+COMPILE = command("", "compile", cold=0.0).arguments
 QUESTIONS = (
     command("`pendular --help`", "--help", cold=0.25, warm=0.25),
     command("`bridge` at a suction", "bridge", *PAIR, "--suction", "20kPa", "--separation", "1um", cold=1.0),
@@ -117,7 +118,7 @@ def seconds(arguments: tuple[str, ...], caches: Path, folder: Path) -> float:
     _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode != 0 and str(port) not in arguments:
-        raise RuntimeError(f"{arguments}: {said.decode()}")
+        raise RuntimeError(f"{arguments} left with {process.returncode}: {said.decode()}")
     return usage.ru_utime + usage.ru_stime
 
 
@@ -128,56 +129,50 @@ def free_port() -> int:
 
 
 def end_when_answered(process: subprocess.Popen[bytes], port: int) -> None:
-    """End a server once its page holds the pair and its curve, or says that it cannot."""
-    from playwright.sync_api import sync_playwright  # the page is filled in by a browser
-
-    url = f"http://127.0.0.1:{port}/"
-    with sync_playwright() as play, play.chromium.launch() as browser:
-        while process.poll() is None:
-            try:
-                urllib.request.urlopen(url).close()
-                break
-            except OSError:
-                time.sleep(0.02)
-        page = browser.new_page()
-        page.goto(url)
-        page.wait_for_selector(".js-plotly-plot", timeout=300_000)
-        process.terminate()
-
-
-def medians(measure: Callable[[Path, Path], tuple[float, float]]) -> tuple[float, float]:
-    """Medians of figures with empty caches, and with what the process before has left in them."""
-    found = []
-    for _ in range(ROUNDS):
-        with tempfile.TemporaryDirectory() as caches, tempfile.TemporaryDirectory() as folder:
-            found.append(measure(Path(caches), Path(folder)))
-        if found[0][0] > LONG:
+    """End a server once its first page has come."""
+    while process.poll() is None:
+        try:
+            with urllib.request.urlopen(f"http://127.0.0.1:{port}/") as answer:
+                page = answer.read().decode()
+        except OSError:
+            time.sleep(0.02)
+            continue
+        if ADVANCE not in page:  # the pair and its curve are on it
             break
-    return statistics.median(cold for cold, _ in found), statistics.median(warm for _, warm in found)
+        time.sleep(0.1)
+    process.terminate()
 
 
-def of_question(question: Question) -> tuple[float, float]:
-    """Processor time of a question, cold and warm, [s]."""
-    return medians(lambda caches, folder: (seconds(question.arguments, caches, folder),
-                                           seconds(question.arguments, caches, folder)))  # fmt: skip
+def medians(measure: Callable[[Path], float], ready: Path) -> tuple[float, float]:
+    """Medians of a figure with empty caches, and with all machine code made ahead; one of each of what takes long."""
+    found: list[list[float]] = [[], []]
+    for figures, caches in zip(found, (None, ready), strict=True):
+        while len(figures) < (ROUNDS if not figures or figures[0] < LONG else 1):
+            with tempfile.TemporaryDirectory() as empty:
+                figures.append(measure(caches or Path(empty)))
+    return statistics.median(found[0]), statistics.median(found[1])
 
 
-def of_call() -> tuple[float, float]:
+def time_of(arguments: tuple[str, ...]) -> Callable[[Path], float]:
+    """How the processor time of a process is measured, [s]."""
+
+    def measure(caches: Path) -> float:
+        with tempfile.TemporaryDirectory() as folder:
+            return seconds(arguments, caches, Path(folder))
+
+    return measure
+
+
+def of_call(ready: Path) -> tuple[float, float]:
     """Time of a scalar call in Python, with no machine code there and with it loaded, [ms]."""
 
-    def measure(caches: Path, folder: Path) -> tuple[float, float]:
-        seconds(("-c", MANY), caches, folder)  # leaves machine code behind
-        warm = answers(caches, folder)[1]
-        with tempfile.TemporaryDirectory() as empty:
-            return answers(Path(empty), folder)[0], warm
-
-    def answers(caches: Path, folder: Path) -> tuple[float, float]:
-        command = [sys.executable, "-c", CALL]
-        done = subprocess.run(command, cwd=folder, env=environment(caches), capture_output=True, text=True, check=True)
+    def answers(caches: Path) -> tuple[float, float]:
+        own = environment(caches)
+        done = subprocess.run([sys.executable, "-c", CALL], env=own, capture_output=True, text=True, check=True)
         first, later = map(float, done.stdout.split())
         return first, later
 
-    return medians(measure)
+    return medians(lambda caches: answers(caches)[0 if caches != ready else 1], ready)
 
 
 def row(name: str, cold: float, warm: float, goals: tuple[float, float], floor: float = 0.0, unit: str = "s") -> str:
@@ -205,28 +200,34 @@ def page(chosen: list[str]) -> str:
         floors = [seconds(("-c", "pass"), Path(empty), Path(empty)) for _ in range(2 * ROUNDS + 1)]
     floor = statistics.median(floors)
     rows = []
-    for question in QUESTIONS:
-        if not chosen or any(part in question.name for part in chosen):
-            rows.append(row(question.name, *of_question(question), (question.cold, question.warm), floor))
-            sys.stderr.write(rows[-1] + "\n")
-    if not chosen or "call" in chosen:
-        rows.append(row("a scalar `pl.bridge(...)`", *of_call(), (GOALS["call cold"], GOALS["call warm"]), unit="ms"))
+    with tempfile.TemporaryDirectory() as folder:
+        ready = Path(folder)
+        compiling = time_of(COMPILE)(ready)
+        for question in QUESTIONS:
+            if not chosen or any(part in question.name for part in chosen):
+                found = medians(time_of(question.arguments), ready)
+                rows.append(row(question.name, *found, (question.cold, question.warm), floor))
+                sys.stderr.write(rows[-1] + "\n")
+        if not chosen or "call" in chosen:
+            goals = (GOALS["call cold"], GOALS["call warm"])
+            rows.append(row("a scalar `pl.bridge(...)`", *of_call(ready), goals, unit="ms"))
     versions = ", ".join(f"{name} {version(name.lower())}" for name in ("NumPy", "Numba", "Matplotlib"))
     return f"""# What a first answer costs
 
 Written by `python -m benchmarks.first_answers`: processor seconds of the whole process, all its threads, on
 {processor()}, {platform.system()}, Python {platform.python_version()}, {versions}. *Cold* is
-a process that finds no machine code and no other cache of a user, as in a fresh container, on a node of a cluster or in
-CI; the byte code of Python is there, as an installation leaves it. *Warm* is the same process again. Medians of
-{ROUNDS}; of what takes more than {LONG:g} s, one run. `python -c pass` takes {floor:.3f} s here; the last column is
-what a cold process takes beyond it. A ✗ marks what misses its goal.
+a process that finds no machine code and no other cache of a user, as in a fresh container, on a node of a cluster or
+in CI; the byte code of Python is there, as an installation leaves it. *Warm* is a process that finds all machine code,
+made by `pendular compile` in {compiling:.0f} s. Medians of {ROUNDS}; of what takes more than {LONG:g} s, one run.
+`python -c pass` takes {floor:.3f} s here; the last column is what a cold process takes beyond it.
+A ✗ marks what misses its goal.
 
 | | cold | goal | warm | goal | cold, beyond `pass` |
 |---|---:|---:|---:|---:|---:|
 {chr(10).join(rows)}
 
 A few questions are answered in plain Python, by the kernels as they stand, and compile nothing. Many are answered by
-machine code, which is made once on a machine, or ahead of time by [`pendular compile`](start.md).
+machine code, which is made once on a machine, or [ahead of time](howto/compile_ahead.md).
 """
 
 

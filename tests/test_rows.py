@@ -85,6 +85,47 @@ def test_plain_python_and_machine_code_agree(control, asked, plain, by_machine):
         np.testing.assert_allclose(plainly[:, column], compiled[:, column], rtol=tolerance, atol=1e-12, err_msg=field)
 
 
+def spread(control):
+    """Questions from overlap to beyond rupture, planes among them, and solids that hold nothing."""
+    random = np.random.default_rng(SEED + 10 + control)
+    question = questions(control, 40)
+    question[:, 0] *= random.uniform(-0.2, 12.0, len(question))
+    question[::13, 4] = 0.0
+    question[::17, 3] = 3.0
+    return question
+
+
+@pytest.mark.parametrize("asked", ["stable", "rupture"])
+@pytest.mark.parametrize("control", [SUCTION, VOLUME])
+@pytest.mark.parametrize("way", ["plain", pytest.param("by_machine", marks=COMPILER)])
+def test_parts_of_the_solver_answer_as_the_whole(way, control, asked, request, monkeypatch):
+    """What the small parts answer is, bit by bit in plain Python, what the whole would; they leave little to it."""
+    ask, question, left = request.getfixturevalue(way), spread(control), []
+    over_open = batch._over_open
+
+    def watched(function, *rest):
+        left.append(int(np.count_nonzero(rest[3] == batch.OPEN)))
+        over_open(function, *rest)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(batch, "_over_open", watched)
+        in_parts, statuses = ask(ASKED[asked], control, question)
+    assert left[0] == len(question)
+    assert left[-1] < 0.25 * len(question), left
+    monkeypatch.setattr(batch, "_over_open", lambda f, *rest: f is batch.bridge_range and over_open(f, *rest))
+    whole, whole_statuses = ask(ASKED[asked], control, question)
+    np.testing.assert_array_equal(statuses, whole_statuses)
+    assert batch.FOUND in statuses
+    assert batch.NO_BRIDGE in statuses or asked == "rupture"
+    if way == "plain":
+        np.testing.assert_array_equal(in_parts, whole)
+        return
+    tolerance = 1e-13 if asked == "stable" else 1e-9  # where the slope at the end of a branch vanishes
+    for field in set(State._fields) - FLAT:  # a compiler puts the same kernels together in another way
+        column = State._fields.index(field)
+        np.testing.assert_allclose(in_parts[:, column], whole[:, column], rtol=tolerance, atol=1e-12, err_msg=field)
+
+
 @COMPILER
 @pytest.mark.parametrize("threads", ["1", "2", "5"])
 def test_the_number_of_threads_changes_no_bit(threads, by_machine, monkeypatch):
