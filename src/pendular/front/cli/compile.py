@@ -7,7 +7,6 @@ from typing import Annotated
 
 import typer
 
-from ...ground.compile import has_compiler
 from ...ground.files import in_one_line
 from ._app import app, warnings_in_one_line
 
@@ -25,6 +24,8 @@ def compile_kernels(
     ] = None,
 ) -> None:
     """Machine code for many bridges, made ahead of time: in the build of a container, or before a cluster starts."""
+    from ...ground.compile import has_compiler
+
     if not has_compiler():
         raise ValueError("compile: numba is not installed; pip install numba")
     if folder is not None:
