@@ -6,14 +6,14 @@ A sphere of radius a meets a solid of curvature k at the contact angle θ in a c
           \sin\delta = ak\sin\theta/c, \quad Y = a\sin\theta/c .
 
 Of a large volume it is the bridge that is always known, between the separation at which the drop swallows a solid and
-rupture.
+rupture; and of a pressure in the liquid, where its radius is -2/H.
 """
 
 import math
 
 from ..ground.compile import kernel
 from .algebra import Four
-from .equations import Held
+from .equations import SUCTION, Held
 from .meridian import ends_of
 from .solids import Solid, contact_with
 
@@ -55,7 +55,10 @@ def _volume_of(held: Held, radius: float, z: Four) -> float:
 
 @kernel
 def drop_between(held: Held) -> tuple[Four, bool]:
-    """The spherical drop that holds a volume between two solids, and whether there is one."""
+    """The spherical drop that holds a volume or a pressure between two solids, and whether there is one."""
+    if held.control == SUCTION:
+        z = _drop_of(held, -2.0 / held.value) if held.value < 0.0 else _NOWHERE
+        return z, z.turn < 0.0
     low, high = 0.0, held.value ** (1.0 / 3.0)
     for _ in range(_MOST_DOUBLINGS):
         z = _drop_of(held, high)

@@ -1,8 +1,8 @@
 """Finding a stable bridge of two solids that hold something, wherever Newton's method alone does not.
 
-First at other separations. A volume is held by a spherical drop then, unless that swallows a solid: it is the bridge of
-two solids that are wetted less, and leads to the one sought by a morph. At last by a morph from an easy problem: two
-solids that are wetted alike, and a little liquid.
+First at other separations. A volume or a pressure is held by a spherical drop then, whose branch is followed over its
+folds; where the drop swallows a solid, it is the bridge of two solids that are wetted less, and leads to the one sought
+by a morph. At last by a morph from an easy problem: two solids that are wetted alike, and a little liquid.
 """
 
 import math
@@ -103,14 +103,19 @@ def _from_drop(task: Task, nodes: Nodes) -> tuple[Stance, bool]:
     stance, _curve = set_out(guess_at(held, task.separation), held, symmetric, 1.0)
     for least in _LEAST_ANGLES:
         angle1, angle2 = max(task.angle1, least), max(task.angle2, least)
+        is_own = angle1 == task.angle1 and angle2 == task.angle2
+        if is_own and least > 0.0:  # tried as the first
+            continue
         easy = Task(task.separation, task.value, task.curvature1, angle1, task.curvature2, angle2, task.control)
         z, is_drop = drop_between(held_of(easy))
         if not is_drop:
             continue
-        if angle1 == task.angle1 and angle2 == task.angle2:
+        if is_own:
             stance, _curve = set_out(z, held, symmetric, 1.0)
-            if stance.unstable == 0 and stance.opening > _LEAST_OPENING:
-                return stance, True
+            if stance.opening > _LEAST_OPENING:
+                stance, is_stable = _woken(z, task, nodes)
+                if is_stable:
+                    return stance, True
             continue
         separation = system_at(z, held_of(easy), True, True).separation.value
         hard = at_separation(task, separation)
@@ -135,10 +140,9 @@ def anchor(task: Task, nodes: Nodes) -> tuple[Stance, bool]:
         stance, index = directly(at_separation(task, share * natural))
         if index == 0:
             return stance, True
-    if task.control == VOLUME:
-        stance, is_stable = _from_drop(task, nodes)
-        if is_stable:
-            return stance, True
+    stance, is_stable = _from_drop(task, nodes)
+    if is_stable:
+        return stance, True
     for attempt in range(len(_MORPH_SHARES) + 1):
         if attempt > 0 and _MORPH_SHARES[attempt - 1] == 0.0 and are_planes(task):
             continue
