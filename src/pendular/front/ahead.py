@@ -71,12 +71,12 @@ def _ask_filling_angle() -> None:
 def _ask_table() -> None:
     table = tabulate(0.35, reduced=(1.0, 1.5))
     for gaps in (0.0, _GAPS):  # by rows and by blocks
-        table.force(gaps, 5e3, 50e-6, 50e-6, 0.0728)
-        table.volume(gaps, 5e3, 50e-6, 50e-6, 0.0728)
-    table.curve(5e3, 50e-6, 50e-6, 0.0728).force(_GAPS)
+        table.force(gaps, 1.8e3, 50e-6, 50e-6, 0.0728)
+        table.volume(gaps, 1.8e3, 50e-6, 50e-6, 0.0728)
+    table.curve(1.8e3, 50e-6, 50e-6, 0.0728).force(_GAPS)
     branches(SUCTION, False, _NOT_FORETOLD, np.array([0.1, 0.5, 1.0]), 1)
     positions = np.array([[0.0, 0.0, 0.0], [100e-6, 0.0, 0.0]])
-    contact_forces(table, np.array([[0, 1]]), positions, np.full(2, 50e-6), 5e3, 0.0728)
+    contact_forces(table, np.array([[0, 1]]), positions, np.full(2, 50e-6), 1.8e3, 0.0728)
 
 
 def _ask_laws() -> None:
