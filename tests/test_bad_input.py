@@ -102,6 +102,10 @@ CALLS = {
     "load_state": lambda known: (pl.load_state, {"path": "no.npz"}),
     "read_packing": lambda known: (pl.read_packing, {"path": "no.dump"}),
     "write_packing": lambda known: (pl.write_packing, {"path": "no.vtu", "heap": known["heap"]}),
+    "write_mesh": lambda _known: (
+        pl.write_mesh,
+        {"path": "no.vtu", "pair": GRAINS, "bridge": pl.bridge(GRAINS, 0.0, suction=2e4, liquid=WATER), "around": 16},
+    ),
     "packing_dataset": lambda known: (pl.packing_dataset, {"heap": known["heap"]}),
 }
 MAY_BE_NONE = {("contact_energy", "state"), ("wet", "suction")}

@@ -11,6 +11,7 @@ from .ask.liquid import KelvinWarning as KelvinWarning
 from .ask.liquid import Liquid as Liquid
 from .ask.liquid import humidity_from_suction as humidity_from_suction
 from .ask.liquid import suction_from_humidity as suction_from_humidity
+from .ask.mesh import Mesh as Mesh
 from .ask.pair import Pair as Pair
 from .ask.problem import ConvergenceWarning as ConvergenceWarning
 from .ask.result import Bridge as Bridge
@@ -18,6 +19,7 @@ from .ask.result import Profile as Profile
 from .codes.grains.labelled import packing_dataset as packing_dataset
 from .codes.grains.reading import read_packing as read_packing
 from .codes.grains.writing import write_packing as write_packing
+from .codes.mesh_files import write_mesh as write_mesh
 from .comparison import Comparison as Comparison
 from .comparison import ErrorMap as ErrorMap
 from .comparison import Recommendation as Recommendation

@@ -1,6 +1,7 @@
 """Commands for one pair: a bridge, its rupture, its force curve."""
 
 import math
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
@@ -49,6 +50,13 @@ def bridge(
         str | None, typer.Option(help="Or half-filling angle on the second solid.", metavar="ANGLE")
     ] = None,
     branch: Annotated[str, typer.Option(help="Which of two bridges: stable, or unstable.")] = "stable",
+    mesh: Annotated[
+        Path | None,
+        typer.Option(
+            help="Write the surfaces of liquid and solids: .vtu, .stl, .obj, .ply, or .fe for Surface Evolver.",
+            metavar="FILE",
+        ),
+    ] = None,
 ) -> None:
     """Force, shape and energies of a bridge, and its rupture distance.
 
@@ -60,9 +68,15 @@ def bridge(
     asked = _asked(separation, half_filling_angle, half_filling_angle2)
     length = sweep_length(**asked.values, **question.control)
     _refuse_picture_of_sweep(question)
+    if mesh is not None and length is not None:
+        raise ValueError("mesh: holds one bridge, not a sweep")
     answer = _with_asked(question.put_to(bridges.bridge, branch=branch, **asked.arguments), asked, question)
     end = question.put_to(bridges.rupture) if question.has_stable_bridges else None
     _draw(question, end, *_place_of(answer, asked))
+    if mesh is not None:
+        from ...codes.mesh_files import write_mesh
+
+        write_mesh(mesh, question.pair, answer)
     limits = [] if end is None else [report.spread("rupture_separation", "m", end.separation, answer)]
     if question.form == "json":
         typer.echo(_json(question, answer, *limits))
@@ -81,6 +95,8 @@ def bridge(
         if end is not None:
             more["rupture distance"] = (show(float(end.separation), "m"), "separation at which the bridge breaks")
         print_answer(question, report.state_table(answer, more))
+        if mesh is not None:
+            typer.echo(f"\nmesh: {mesh}")
 
 
 @question_command(
