@@ -246,6 +246,56 @@ def test_its_arguments_may_have_any_names(record):
         assert "\nvolume_star : float\n    Liquid volume over the cube of the Derjaguin radius" in function.__doc__
 
 
+# -- without a registration ------------------------------------------------------------------------------------------
+
+
+def test_a_record_is_compared_as_it_is(record):
+    found = pl.compare(PAIR, volume=1e-15, liquid=WATER, laws=[record, "willett2000"])
+    assert {answer.name for answer in found.laws} == {"smith2030", "willett2000"}
+    assert record.name not in laws
+    pl.laws.register(record)
+    (registered,) = pl.compare(PAIR, volume=1e-15, liquid=WATER, laws=["smith2030"]).laws
+    (given,) = (answer for answer in found.laws if answer.name == "smith2030")
+    assert np.array_equal(given.force, registered.force)
+
+
+@pytest.mark.parametrize(
+    ("chosen", "message"),
+    [
+        ("zhao2020", "laws: 'zhao2020' is not a sequence of names and records of laws"),
+        (["zhao"], "laws: 'zhao' is not one of 'asymptotic', "),
+        ([None], "laws: None is not one of 'asymptotic', "),
+    ],
+)
+def test_what_is_no_law_is_refused(chosen, message):
+    with pytest.raises(ValueError, match=re.escape(message)):
+        pl.compare(PAIR, volume=1e-15, liquid=WATER, laws=chosen)
+
+
+def test_the_command_takes_a_law_of_a_file(record, tmp_path, capsys):
+    (tmp_path / "smith.py").write_text(SOURCE, encoding="utf-8")
+    told = printed(capsys, "compare", *GRAINS, "--law", f"{tmp_path / 'smith.py'}:LAW", "--json")
+    assert "smith2030" in json.loads(told)["laws"]
+
+
+@pytest.mark.parametrize(
+    ("source", "place", "message"),
+    [
+        ("", "smith.py", "law: 'smith.py' is not FILE:NAME, like laws.py:my_law"),
+        ("", "smith.py:LAW", "law: smith.py has no LAW"),
+        ("LAW = 3", "smith.py:LAW", "law: 3 is not a record, pendular.laws.Law"),
+        ("1 / 0", "smith.py:LAW", "law: smith.py fails with ZeroDivisionError: division by zero"),
+        ("", "none.py:LAW", "law: 'none.py' cannot be read: No such file or directory"),
+    ],
+)
+def test_the_command_refuses_in_one_line(source, place, message, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "smith.py").write_text(source, encoding="utf-8")
+    with pytest.raises(SystemExit) as left:
+        main(["compare", *GRAINS, "--law", place])
+    assert (left.value.code, capsys.readouterr().err) == (2, f"pendular: {message}\n")
+
+
 # -- in a process of its own -------------------------------------------------------------------------------------------
 
 

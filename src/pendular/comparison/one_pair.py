@@ -1,5 +1,6 @@
 """All laws beside the exact solution, for one pair of solids at one control."""
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,8 +11,9 @@ from ..ask.liquid import Liquid
 from ..ask.other_control import other_control_star
 from ..ask.pair import Pair, check_pair, refuse_planes
 from ..ask.problem import Control, control_of, control_star, reduce
-from ..ground.check import whole_number
-from ..laws import Law, force_star, laws, rupture_star, rupture_work_star
+from ..ground.check import one_of, whole_number
+from ..laws import Law, force_star, rupture_star, rupture_work_star
+from ..laws import laws as registry
 from .domain import outside_range, why_silent
 from .sample import ControlName, rupture_work
 
@@ -81,6 +83,7 @@ def compare(
     humidity: ArrayLike | None = None,
     liquid: Liquid,
     points: int = 61,
+    laws: Sequence[str | Law] | None = None,
 ) -> Comparison:
     r"""Force by every law that applies to a pair, beside the exact force, from contact to rupture.
 
@@ -96,6 +99,8 @@ def compare(
         Surface tension, and for humidity density and molar mass.
     points : int
         Separations from contact to rupture, at least 5; those at which errors are told are added to them.
+    laws : sequence of str or Law, optional
+        Which laws, by their names or as records, registered or not; by default all that are registered.
 
     Returns
     -------
@@ -123,19 +128,32 @@ def compare(
     3.87 %
     """
     count = whole_number("points", points, _FEWEST)
+    chosen = _chosen(laws)
     control = control_of(suction, volume, humidity, liquid)
     check_pair(pair)
     refuse_planes(pair, "no law knows")
     exact = _exact(pair, control, liquid, count)
     reduced = _reduce(exact, control, liquid)
     found, refused = [], {}
-    for law in laws.values():
+    for law in chosen:
         answer = _answer(law, exact, reduced)
         if np.all(np.isnan(answer.error)) and np.isnan(answer.rupture_error) and np.isnan(answer.rupture_work_error):
             refused[law.name] = _why_silent(law, exact, reduced)
         else:
             found.append(answer)
     return exact._replace(laws=tuple(sorted(found, key=_rank)), refused=refused)
+
+
+def _chosen(laws: Sequence[str | Law] | None) -> list[Law]:
+    """Records of the laws that are asked for."""
+    if laws is None:
+        return list(registry.values())
+    if isinstance(laws, str | Law) or not isinstance(laws, Sequence):
+        raise ValueError(f"laws: {laws!r} is not a sequence of names and records of laws")
+    for law in laws:
+        if not isinstance(law, Law):
+            one_of("laws", law, tuple(registry))
+    return [law if isinstance(law, Law) else registry[law] for law in laws]
 
 
 def _exact(pair: Pair, control: Control, liquid: Liquid, count: int) -> Comparison:
@@ -189,11 +207,11 @@ def _answer(law: Law, exact: Comparison, reduced: _Reduced) -> LawAnswer:
     force, distance, work = silence, np.nan, np.nan
     scale = 2.0 * np.pi * reduced.tension * reduced.length
     if "force" in law.gives:
-        force = scale * force_star(law.name, exact.separation / reduced.length, control, *reduced.solids)
+        force = scale * force_star(law, exact.separation / reduced.length, control, *reduced.solids)
     if is_own and "rupture" in law.gives:
-        distance = reduced.length * float(rupture_star(law.name, control[0], *reduced.solids))
+        distance = reduced.length * float(rupture_star(law, control[0], *reduced.solids))
     if is_own and "rupture_work" in law.gives:
-        work = scale * reduced.length * float(rupture_work_star(law.name, control[0], *reduced.solids))
+        work = scale * reduced.length * float(rupture_work_star(law, control[0], *reduced.solids))
     with np.errstate(divide="ignore", invalid="ignore"):
         error = force / exact.force - 1.0
     return LawAnswer(

@@ -44,7 +44,8 @@ class _Style(NamedTuple):
 
 def style_of(name: str) -> _Style:
     """How a law is drawn, the same in all pictures."""
-    place = list(laws).index(name)
+    names = list(laws)
+    place = names.index(name) if name in names else len(names)  # one that is not registered
     return _Style(_COLOURS[place % len(_COLOURS)], _DASHES[place % len(_DASHES)])
 
 

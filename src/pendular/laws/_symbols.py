@@ -53,7 +53,7 @@ CONTACT_ANGLE = Variable("contact_angle", "rad", "contact angle on either solid,
 SIZE_RATIO = Variable("size_ratio", "-", "larger over smaller radius, infinite for a plane", 1.0)
 KAPPA = Variable("kappa", "-", "Derjaguin radius over the radius of either solid, 0 for a plane", 0.0, 2.0)
 CONTROL = Variable("control_star", "-", "the suction or the volume, reduced, whichever the law holds", 0.0)
-LAW_NAME = Variable("law", "", "name in the registry")
+LAW_NAME = Variable("law", "", "name in the registry, or a record of its own")
 
 # Arguments of kernels by their names.
 SHARED = {symbol.name: symbol for symbol in (SEPARATION, SUCTION, VOLUME, CONTACT_ANGLE, KAPPA)} | {

@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 
 def force_star(
-    law: str,
+    law: str | Law,
     separation_star: ArrayLike,
     control_star: ArrayLike,
     contact_angle1: ArrayLike,
@@ -46,7 +46,7 @@ def force_star(
 
 
 def rupture_star(
-    law: str,
+    law: str | Law,
     control_star: ArrayLike,
     contact_angle1: ArrayLike,
     contact_angle2: ArrayLike,
@@ -72,7 +72,7 @@ def rupture_star(
 
 
 def rupture_work_star(
-    law: str,
+    law: str | Law,
     control_star: ArrayLike,
     contact_angle1: ArrayLike,
     contact_angle2: ArrayLike,
@@ -97,11 +97,12 @@ def rupture_work_star(
     )
 
 
-def _evaluate(name: str, quantity: Quantity, **operands: ArrayLike) -> Array:
-    law = LAWS.get(name) if isinstance(name, str) else None
+def _evaluate(asked: str | Law, quantity: Quantity, **operands: ArrayLike) -> Array:
+    law = asked if isinstance(asked, Law) else LAWS.get(asked) if isinstance(asked, str) else None
     if law is None or quantity not in law.gives:
         able = ", ".join(record.name for record in LAWS.values() if quantity in record.gives)
-        raise ValueError(f"law is {name!r}, the laws that give the {quantity.replace('_', ' ')} are {able}")
+        told = asked.name if isinstance(asked, Law) else asked
+        raise ValueError(f"law is {told!r}, the laws that give the {quantity.replace('_', ' ')} are {able}")
     arrays = {name: numbers(name, operand, "") for name, operand in operands.items()}
     shape = broadcast(**arrays)[0].shape
     out = np.full(shape, np.nan)

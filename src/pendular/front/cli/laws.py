@@ -1,6 +1,8 @@
 """Commands for the laws: what is known of them, and how far they are from the exact solution."""
 
 import math
+from pathlib import Path
+from runpy import run_path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -70,7 +72,8 @@ def _law_facts(law: "Law") -> dict[str, Any]:
 @question_command(
     "--radius 50um --contact-angle 20 --volume 1pL --plot laws.svg\n"
     "  pendular compare --map zhao2020 --fraction 0.9 --plot map.png\n"
-    "  pendular compare --recommend --reduced-volume 1e-4 1e-2 --contact-angle-range 0 40",
+    "  pendular compare --recommend --reduced-volume 1e-4 1e-2 --contact-angle-range 0 40\n"
+    "  pendular compare --radius 50um --volume 1pL --law laws.py:my_law",
     has_other_uses=True,
 )
 def compare(
@@ -92,8 +95,16 @@ def compare(
     up_to: Annotated[
         float | None, typer.Option(help="Largest separation over rupture distance, 0.9.", metavar="NUMBER")
     ] = None,
+    own: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--law", help="A law of yours beside the others: a record in a file of Python.", metavar="FILE:NAME"
+        ),
+    ] = None,
 ) -> None:
     """Laws side by side with the exact solution: for a pair, as a map, or ranked."""
+    for place in own or ():
+        _register(place)
     ranges = {
         "reduced_suction": reduced_suction,
         "reduced_volume": reduced_volume,
@@ -111,6 +122,26 @@ def compare(
         _refuse({"fraction": fraction}, None, "map")
         _refuse(ranges, None, "recommend")
         _show_comparison(shared)
+
+
+def _register(place: str) -> None:
+    """Run a file of Python, and register the law that it holds under a name."""
+    from ...ground.files import in_one_line
+    from ...laws import register
+
+    file, colon, name = place.rpartition(":")
+    if not (colon and file and name):
+        raise ValueError(f"law: {place!r} is not FILE:NAME, like laws.py:my_law")
+    with in_one_line("law", Path(file), "read"):
+        try:
+            found = run_path(file)
+        except OSError:
+            raise
+        except Exception as error:
+            raise ValueError(f"law: {file} fails with {type(error).__name__}: {error}") from error
+    if name not in found:
+        raise ValueError(f"law: {file} has no {name}")
+    register(found[name])
 
 
 def _asked(shared: dict[str, Any]) -> dict[str, Any]:
