@@ -206,8 +206,13 @@ def test_the_commands_of_the_readme_work(run, tmp_path, monkeypatch):
 def test_the_examples_in_the_help_work(run, tmp_path, monkeypatch, command):
     monkeypatch.chdir(tmp_path)
     _, text, _ = run(command, "--help")
+    (tmp_path / "laws.py").write_text(
+        "from dataclasses import replace\nfrom pendular.laws import laws\n"
+        "my_law = replace(laws['zhao2020'], name='my_law')\n"
+    )
+    monkeypatch.setattr("pendular.laws._registry._registered", {})
     examples = re.findall(r"^ +pendular (.+)$", text, re.MULTILINE)
-    assert len(examples) == {"laws": 1, "compare": 3}[command]
+    assert len(examples) == {"laws": 1, "compare": 4}[command]
     for example in examples:
         status, output, errors = run(*shlex.split(example))
         assert (status, errors) == (0, "")

@@ -190,6 +190,7 @@ def test_who_keeps_asking_is_answered_by_machine_code(monkeypatch):
     chosen = []
     monkeypatch.setattr(native, "load", lambda *_: chosen.append("load"))
     monkeypatch.setattr(native, "build", lambda *_: chosen.append("build"))
+    monkeypatch.setattr(rows, "_LOADING", 0.15)
     monkeypatch.setattr(rows, "_spent", dict.fromkeys(rows._spent, 0.0))
     batch.answer(batch.STABLE, SUCTION, questions(SUCTION, 2))
     assert chosen == []
