@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..exact import batch
-from ..ground.check import in_range, plain, quantity
+from ..ground.check import in_range, quantity
 from .liquid import Liquid
 from .pair import Pair
-from .problem import ASKED, LIMITS, Control, Limit, Problem, control_name, control_si, reduce, restore
+from .problem import ASKED, LIMITS, Control, Limit, Problem, reduce, restore
 from .result import Bridge
 
 Floats = NDArray[np.float64]
@@ -42,7 +42,7 @@ def bridge_by_angle(
     asking = (ASKED[branch], problem.held, solid, angles, rows, LIMITS[limit])
     states, statuses, separations = batch.answer_filling(*asking)
     _refuse_several(problem, statuses, separations, angles, branch)
-    return _echo(restore(problem, states, statuses, ()), problem, solid, angles)
+    return _echo(restore(problem, states, statuses), solid, angles)
 
 
 def _named(value: Any) -> tuple[int, Floats]:
@@ -79,11 +79,8 @@ def _refuse_several(
     )
 
 
-def _echo(answer: Bridge, problem: Problem, solid: int, angles: Floats) -> Bridge:
-    """Give back the angle and the control that were asked, not those that the solver met to the last digits."""
-    name = control_name(problem)
-    held = np.where(answer.exists, control_si(problem).reshape(problem.shape), getattr(answer, name))
+def _echo(answer: Bridge, solid: int, angles: Floats) -> Bridge:
+    """Give back the angle that was asked, not the one that the solver met to the last digits."""
     filling = answer.half_filling_angle.copy()
-    filling[..., solid] = np.where(answer.exists, angles.reshape(problem.shape), filling[..., solid])
-    met: dict[str, Any] = {name: plain(held), "half_filling_angle": filling}
-    return replace(answer, **met)
+    filling[..., solid] = np.where(answer.exists, angles.reshape(filling.shape[:-1]), filling[..., solid])
+    return replace(answer, half_filling_angle=filling)

@@ -1,12 +1,11 @@
 """The public face: a bridge between two solids, its rupture and its force curve, in SI units."""
 
-from dataclasses import replace
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..ground.check import one_of, plain, whole_number
+from ..ground.check import one_of, whole_number
 from ..laws import laws
 from .by_angle import bridge_by_angle
 from .by_dataset import bridge_by_dataset, rupture_by_dataset
@@ -19,10 +18,7 @@ from .problem import (
     Control,
     ConvergenceWarning,
     Limit,
-    Problem,
-    control_name,
     control_of,
-    control_si,
     reduce,
     refuse_drained_planes,
     solve,
@@ -149,7 +145,7 @@ def bridge(
     problem = reduce(pair, control, liquid, separation)
     if is_approximate:
         return _BRIDGES[method](problem) if method in _BRIDGES else bridge_by_law(problem, method)
-    answer = _echo(solve(problem, branch, limit), problem)
+    answer = solve(problem, branch, limit)
     if humidity is not None:
         _judge_humidity(pair, separation, control, liquid, branch, answer)
     return answer
@@ -296,16 +292,6 @@ def _is_approximate(method: str, pair: Pair) -> bool:
 def _refuse_drained_planes(pair: Pair, control: Control, humidity: ArrayLike | None) -> None:
     if control.name == "suction":
         refuse_drained_planes(pair, "suction" if humidity is None else "humidity")
-
-
-def _echo(answer: Bridge, problem: Problem) -> Bridge:
-    """Give back the separation and the control that were asked, not those that the solver met to the last digits."""
-    name = control_name(problem)
-    asked = {"separation": problem.separation, name: control_si(problem).reshape(problem.shape)}
-    if not problem.shape:
-        return replace(answer, **{field: plain(value) for field, value in asked.items()}) if answer.exists else answer
-    met = {field: plain(np.where(answer.exists, value, getattr(answer, field))) for field, value in asked.items()}
-    return replace(answer, **met)
 
 
 def _judge_humidity(

@@ -1,5 +1,6 @@
 """Two solids on one axis."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -80,6 +81,17 @@ def check_pair(pair: object) -> None:
         raise ValueError(f"pair: {pair!r} is not a pendular.Pair; write Pair(radius) or Pair(radius, contact_angle)")
 
 
+def has_planes(pair: Pair) -> bool:
+    """Whether both solids are planes, somewhere.
+
+    Examples
+    --------
+    >>> has_planes(Pair((1.0, [1.0, np.inf]))), has_planes(Pair(np.inf))
+    (False, True)
+    """
+    return math.isinf(np.minimum(*pair.radii).max())
+
+
 def refuse_planes(pair: Pair, unknown: str) -> None:
     """Refuse two planes, with who does not know them.
 
@@ -90,8 +102,7 @@ def refuse_planes(pair: Pair, unknown: str) -> None:
         ...
     ValueError: radius: inf and inf are two planes, which method 'table' does not know; method 'exact' does
     """
-    first, second = pair.radii
-    if np.any(np.isinf(first) & np.isinf(second)):
+    if has_planes(pair):
         raise ValueError(f"radius: inf and inf are two planes, which {unknown}; method 'exact' does")
 
 

@@ -18,7 +18,7 @@ from ..exact.state import State
 from ..ground.check import broadcast, in_range, plain, quantity
 from ..ground.warn import warn
 from .liquid import Liquid, suction_from_humidity
-from .pair import Pair, check_pair
+from .pair import Pair, check_pair, has_planes
 from .result import FIELDS, Bridge
 
 Floats = NDArray[np.float64]
@@ -53,6 +53,26 @@ class Control(NamedTuple):
 
     name: Literal["suction", "volume"]
     value: Floats
+
+
+class _Way(NamedTuple):
+    """What is done in one way to Python's numbers, for a single question, and in another to arrays of them."""
+
+    flat: Callable[[NDArray[Any]], Any]  # what a question with an array asks, one after the other
+    choose: Callable[[Any, Any, Any], Any]  # the first where a condition holds, else the second
+    together: Callable[..., Floats]  # on a last axis
+    any: Callable[[Any], Any]
+    whole: Callable[[Any], Any]
+
+
+def _choose(condition: bool, first: Any, second: Any) -> Any:
+    return first if condition else second
+
+
+_ONE = _Way(np.ndarray.item, _choose, lambda *numbers: np.array(numbers), bool, int)
+_MANY = _Way(
+    np.ravel, np.where, lambda *columns: np.stack(columns, axis=-1), np.any, lambda numbers: numbers.astype(int)
+)
 
 
 class Problem(NamedTuple):
@@ -101,28 +121,30 @@ def reduce(
     named |= {control.name: control.value, "radius[0]": radius1, "radius[1]": radius2}
     named |= {"contact_angle[0]": angle1, "contact_angle[1]": angle2}
     arrays = dict(zip(named, broadcast(**named), strict=True))
-    value, radius1, radius2, angle1, angle2 = (np.ravel(array) for array in list(arrays.values())[-5:])
     shape = arrays[control.name].shape
-    length = np.minimum(radius1, radius2)
-    are_planes = np.isinf(length)
+    way = _MANY if shape else _ONE
+    value, radius1, radius2, angle1, angle2 = (way.flat(array) for array in list(arrays.values())[-5:])
+    gap = 0.0 * value if separation is None else way.flat(arrays["separation"])
+    smaller = way.choose(radius1 < radius2, radius1, radius2)
+    are_planes = smaller == np.inf
     if separation is not None:
-        _refuse_deep_overlap(arrays["separation"], length.reshape(shape))
-    gap = np.ravel(arrays.get("separation", np.zeros(shape)))
+        _refuse_deep_overlap(gap, smaller, shape, way)
+    with np.errstate(invalid="ignore"):
+        mean_radius = 2.0 * smaller / (smaller / radius1 + smaller / radius2)  # NaN of planes
+    _refuse_beyond_domain(control, value, mean_radius, gap, liquid, way)
+    length = smaller
     if control.name == "volume":
-        length = np.where(are_planes, np.cbrt(value), length)
-    elif separation is not None:
-        length = np.where(are_planes, gap, length)
-    with np.errstate(divide="ignore"):
-        mean_radius = 2.0 / (1.0 / radius1 + 1.0 / radius2)
-    _refuse_beyond_domain(control, value, mean_radius, gap, liquid)
-    if control.name == "volume":
+        length = way.choose(are_planes, np.cbrt(value), smaller)
         held, reduced = VOLUME, value / length**3
     else:
+        if separation is not None:
+            length = way.choose(are_planes, gap, smaller)
         held, reduced = SUCTION, value * length / liquid.surface_tension
     if separation is None:
-        gap = np.where(are_planes, _LIKELY_BETWEEN_PLANES * length, gap)
-    rows = np.column_stack([gap / length, reduced, length / radius1, angle1, length / radius2, angle2])
-    return Problem(rows, held, arrays.get("separation", gap.reshape(shape)), length, liquid.surface_tension, shape)
+        gap = way.choose(are_planes, _LIKELY_BETWEEN_PLANES * length, gap)
+    rows = way.together(gap / length, reduced, length / radius1, angle1, length / radius2, angle2).reshape(-1, 6)
+    asked = arrays["separation"] if separation is not None else np.reshape(gap, shape)
+    return Problem(rows, held, asked, np.ravel(length), liquid.surface_tension, shape)
 
 
 def refuse_drained_planes(pair: Pair, named: str) -> None:
@@ -136,130 +158,122 @@ def refuse_drained_planes(pair: Pair, named: str) -> None:
     ValueError: suction: holds no stable bridge between two planes, which dries up or floods the gap; hold a volume, \
 or ask bridge(branch='unstable') for the one between the two
     """
-    first, second = pair.radii
-    if np.any(np.isinf(first) & np.isinf(second)):
+    if has_planes(pair):
         raise ValueError(
             f"{named}: holds no stable bridge between two planes, which dries up or floods the gap; hold a volume, "
             "or ask bridge(branch='unstable') for the one between the two"
         )
 
 
-def _refuse_deep_overlap(separation: Floats, smaller_radius: Floats) -> None:
+def _refuse_deep_overlap(separation: Any, smaller_radius: Any, shape: tuple[int, ...], way: _Way) -> None:
     """Refuse an overlap of half the smaller radius or more, which is no contact of grains, and any of two planes."""
-    lowest = np.where(np.isinf(smaller_radius), 0.0, -_DEEPEST_OVERLAP * smaller_radius)
+    lowest = way.choose(smaller_radius == np.inf, 0.0, -_DEEPEST_OVERLAP * smaller_radius)
     is_too_deep = separation <= lowest
-    if is_too_deep.any():
-        index = tuple(np.argwhere(is_too_deep)[0])  # one row of no indices for a single number
+    if way.any(is_too_deep):
+        i = _first(is_too_deep)
+        index = np.unravel_index(i, shape)
         place = str(list(map(int, index))) if index else ""
-        if np.isinf(smaller_radius[index]):
+        if np.ravel(smaller_radius)[i] == np.inf:
             reason = "0; two planes in contact leave no room for liquid"
         else:
-            reason = f"{lowest[index]:.6g}; an overlap may reach half the smaller radius"
-        raise ValueError(f"separation{place}: {separation[index]} m is not > {reason}")
+            reason = f"{np.ravel(lowest)[i]:.6g}; an overlap may reach half the smaller radius"
+        raise ValueError(f"separation{place}: {np.ravel(separation)[i]} m is not > {reason}")
 
 
 def _refuse_beyond_domain(
-    control: Control, value: Floats, mean_radius: Floats, separation: Floats, liquid: Liquid
+    control: Control, value: Any, mean_radius: Any, separation: Any, liquid: Liquid, way: _Way
 ) -> None:
     """Refuse what the solver was not tried on: it has no meaning for grains either."""
-    are_planes = np.isinf(mean_radius)
     if control.name == "volume":
-        narrow = np.flatnonzero(are_planes & (separation != 0.0) & (separation < _NARROWEST * np.cbrt(value)))
-        if narrow.size:
-            i = narrow[0]
+        lowest = _NARROWEST * np.cbrt(value)
+        is_narrow = (mean_radius != mean_radius) & (separation != 0.0) & (separation < lowest)
+        if way.any(is_narrow):
+            i = _first(is_narrow)
             raise ValueError(
-                f"separation: {separation[i]:.6g} m is not >= {_NARROWEST * np.cbrt(value[i]):.6g}, {_NARROWEST:g} of "
+                f"separation: {np.ravel(separation)[i]:.6g} m is not >= {np.ravel(lowest)[i]:.6g}, {_NARROWEST:g} of "
                 f"the cube root of the volume, where the domain between two planes ends"
             )
-    if control.name == "volume":
-        unit, low, high, symbol = mean_radius**3, *_VOLUMES, "m^3"
+        unit, low, high, symbol, scale = mean_radius * mean_radius * mean_radius, *_VOLUMES, "m^3", "R³"
     else:
-        unit, low, high, symbol = liquid.surface_tension / mean_radius, -_MOST_SUCTION, _MOST_SUCTION, "Pa"
-    is_strange = ~are_planes & ~((value >= low * unit) & (value <= high * unit))
-    if is_strange.any():
-        i = np.flatnonzero(is_strange)[0]
-        allowed = f"[{low * unit[i]:.6g}, {high * unit[i]:.6g}] {symbol}"
-        scale = "R³" if control.name == "volume" else "γ/R"
+        unit, low, high = liquid.surface_tension / mean_radius, -_MOST_SUCTION, _MOST_SUCTION
+        symbol, scale = "Pa", "γ/R"
+    is_strange = (value < low * unit) | (value > high * unit)
+    if way.any(is_strange):
+        i = _first(is_strange)
+        asked, unit, mean = (np.ravel(one)[i] for one in (value, unit, mean_radius))
         raise ValueError(
-            f"{control.name}: {value[i]:.6g} {symbol} is not in {allowed}, {low:g} to {high:g} {scale} with the mean "
-            f"radius R = {mean_radius[i]:.6g} m"
+            f"{control.name}: {asked:.6g} {symbol} is not in [{low * unit:.6g}, {high * unit:.6g}] {symbol}, "
+            f"{low:g} to {high:g} {scale} with the mean radius R = {mean:.6g} m"
         )
+
+
+def _first(condition: Any) -> int:
+    return int(np.flatnonzero(condition)[0])
 
 
 def solve(problem: Problem, asked: Asked, limit: Limit = "stability") -> Bridge:
     """Answer all rows."""
     states, statuses = batch.answer(ASKED[asked], problem.held, problem.rows, LIMITS[limit])
-    return restore(problem, states, statuses, ())
+    separation = problem.separation if asked in ("stable", "unstable") else None
+    return restore(problem, states, statuses, separation)
 
 
 def trace(problem: Problem, points: int, limit: Limit) -> Bridge:
     """Answer all rows with whole curves, of so many points each."""
     states, statuses = batch.draw(problem.held, problem.rows, points, LIMITS[limit])
-    return restore(problem, states, statuses, (points,))
+    return restore(problem, states, statuses, extra=(points,))
 
 
-def restore(problem: Problem, states: Floats, statuses: NDArray[np.int8], extra: tuple[int, ...]) -> Bridge:
-    """Turn reduced states into a bridge in SI units, of the shape of the question and the extra axes."""
+def restore(
+    problem: Problem,
+    states: Floats,
+    statuses: NDArray[np.int8],
+    separation: Floats | None = None,
+    extra: tuple[int, ...] = (),
+) -> Bridge:
+    """Turn reduced states into a bridge in SI units, of the shape of the question and the extra axes.
+
+    It has the control that was asked, and the separation if one was, not those that the solver met to the last digits.
+    """
     shape = problem.shape + extra
     failed = int(np.count_nonzero(statuses == FAILED))
     if failed:
         warn(f"the solver failed for {failed} of {statuses.size} bridges", ConvergenceWarning)
-    if not shape:  # a single one is worked out in Python's numbers, by the same lines
-        reduced = _Reduced(
-            states[0].tolist(), problem.rows[0].tolist(), problem.length.item(), statuses.item(), _together, _choose
-        )
-    else:
-        rows = problem.rows.reshape(problem.shape + (1,) * len(extra) + (6,))
-        reduced = _Reduced(
-            np.moveaxis(states.reshape(*shape, -1), -1, 0),
-            np.moveaxis(np.broadcast_to(rows, (*shape, 6)), -1, 0),
-            np.broadcast_to(problem.length.reshape(problem.shape + (1,) * len(extra)), shape),
-            statuses.reshape(shape),
-            lambda *columns: np.stack(columns, axis=-1),
-            np.where,
-        )
-    return _in_si(reduced, problem.surface_tension)
+    asked: dict[str, Any] = {control_name(problem): control_si(problem)}
+    if separation is not None:
+        asked["separation"] = separation
+    if not shape:
+        row, unit = problem.rows[0].tolist(), problem.length.item()
+        met = {name: value.item() for name, value in asked.items()}
+        return _in_si(State(*states[0].tolist()), row, unit, statuses.item(), met, problem.surface_tension, _ONE)
+    apart = problem.shape + (1,) * len(extra)
+    state = State(*np.moveaxis(states.reshape(*shape, -1), -1, 0))
+    rows = np.moveaxis(np.broadcast_to(problem.rows.reshape(*apart, 6), (*shape, 6)), -1, 0)
+    units = np.broadcast_to(problem.length.reshape(apart), shape)
+    met = {name: value.reshape(apart) for name, value in asked.items()}
+    return _in_si(state, rows, units, statuses.reshape(shape), met, problem.surface_tension, _MANY)
 
 
-class _Reduced(NamedTuple):
-    """States and rows of a problem by columns, of numbers or arrays; and what is done to either."""
-
-    state: Any
-    row: Any
-    unit: Any
-    status: Any
-    together: Callable[..., Floats]  # on a last axis
-    choose: Callable[[Any, Any, Any], Any]  # the first where a condition holds, else the second
-
-
-def _together(*columns: float) -> Floats:
-    return np.array(columns)
-
-
-def _choose(condition: bool, first: Any, second: Any) -> Any:
-    return first if condition else second
-
-
-def _in_si(reduced: _Reduced, gamma: float) -> Bridge:
-    """Bridge in SI units, of reduced states."""
-    columns, row, unit, status, together, choose = reduced
-    state = State(*columns)
+def _in_si(state: State, row: Any, unit: Any, status: Any, met: dict[str, Any], gamma: float, way: _Way) -> Bridge:
+    """Bridge in SI units, of numbers or arrays of a reduced state; ``met`` is what is known to the last digit."""
     exists = status == FOUND
     square = unit * unit
     dry = np.cos(row[3]) * state.wetted_area1 + np.cos(row[5]) * state.wetted_area2
     energy = state.area - dry  # zero for dry and separate solids
-    units = together(unit, unit)
+    units = way.together(unit, unit)
     with np.errstate(divide="ignore"):
-        radii = units / together(row[2], row[4])
+        radii = units / way.together(row[2], row[4])
     sideways = state.sideways_stable == 1.0
     values: dict[str, Any] = {
         "separation": state.separation * unit,
         "suction": gamma * state.curvature / unit,
         "volume": state.volume * square * unit,
-        "force": choose(exists, 2.0 * np.pi * gamma * unit * state.force, choose(status == FAILED, np.nan, 0.0)),
+        "force": way.choose(
+            exists, 2.0 * np.pi * gamma * unit * state.force, way.choose(status == FAILED, np.nan, 0.0)
+        ),
         "exists": exists,
         "stable": (state.unstable_directions == 0.0) & sideways,
-        "unstable_directions": np.asarray(choose(exists, state.unstable_directions, 0.0)).astype(int),
+        "unstable_directions": way.whole(way.choose(exists, state.unstable_directions, 0.0)),
         "sideways_stable": sideways,
         "neck_radius": state.neck_radius * unit,
         "neck_inside": state.neck_inside == 1.0,
@@ -268,13 +282,14 @@ def _in_si(reduced: _Reduced, gamma: float) -> Bridge:
         "grand_potential": gamma * (energy + state.curvature * state.volume) * square,
         "stiffness": 2.0 * np.pi * gamma * state.stiffness,
     }
+    values |= {name: way.choose(exists, value, np.nan) for name, value in met.items()}
     return Bridge(
         **{name: plain(value) for name, value in values.items()},
-        contact_radius=together(state.radius1, state.radius2) * units,
-        half_filling_angle=together(state.filling1, state.filling2),
-        wetted_area=together(state.wetted_area1, state.wetted_area2) * units * units,
-        capillary_tensor=together(state.across_tensor, state.axial_tensor) * units * units,
-        _meridian=together(state.middle_radius * unit, state.middle_slope, state.half_length * unit),
+        contact_radius=way.together(state.radius1, state.radius2) * units,
+        half_filling_angle=way.together(state.filling1, state.filling2),
+        wetted_area=way.together(state.wetted_area1, state.wetted_area2) * units * units,
+        capillary_tensor=way.together(state.across_tensor, state.axial_tensor) * units * units,
+        _meridian=way.together(state.middle_radius * unit, state.middle_slope, state.half_length * unit),
         _solid_radius=radii,
         _surface_tension=gamma,
     )

@@ -184,10 +184,9 @@ def _over_open(
     function: Callable[..., None], given: tuple[int, ...], questions: Rows, states: Rows, statuses: Statuses, *room: Own
 ) -> None:
     """Run an entry over the rows that are open."""
-    is_open = statuses == OPEN
-    if not is_open.any():
+    rows = np.flatnonzero(statuses == OPEN)
+    if not rows.size:
         return
-    rows = np.flatnonzero(is_open)
     part = questions, states, statuses
     if rows.size < len(statuses):
         part = questions[rows], np.empty((rows.size, states.shape[1])), np.empty(rows.size, np.int8)
