@@ -4,6 +4,7 @@ import os
 import re
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -11,7 +12,7 @@ import pytest
 import pendular as pl
 from pendular.codes.yade import read_points, read_table
 from pendular.front.cli import main
-from pendular.ground.files import whole
+from pendular.ground.files import alone, whole
 
 GRAINS = ("--radius", "50um", "--contact-angle", "20", "--suction", "20kPa")
 FULL = pytest.mark.skipif(not Path("/dev/full").exists(), reason="/dev/full is not there on this system")
@@ -51,6 +52,72 @@ def test_a_device_is_not_replaced():
     with pytest.raises(OSError, match="No space left on device"):
         write()
     assert Path("/dev/full").is_char_device()
+
+
+# -- one process at a time ---------------------------------------------------------------------------------------------
+
+HOLDER = """
+import sys, time
+from pathlib import Path
+from pendular.ground.files import alone
+with alone(Path(sys.argv[1]), sys.argv[2], 60.0):
+    print("held", flush=True)
+    time.sleep(float(sys.argv[3]))
+    Path(sys.argv[1]).with_name("done").touch()
+"""
+
+
+@pytest.fixture
+def holder(tmp_path):
+    """Start a process that holds a task for so many seconds."""
+    started = []
+
+    def hold(task, seconds):
+        command = [sys.executable, "-c", HOLDER, str(tmp_path / "locks"), task, str(seconds)]
+        started.append(subprocess.Popen(command, stdout=subprocess.PIPE, text=True))
+        assert started[-1].stdout.readline() == "held\n"
+        return started[-1]
+
+    yield hold
+    for process in started:
+        process.kill()
+        process.communicate()
+
+
+def seconds_to_pass(tmp_path, task, patience=60.0):
+    begin = time.monotonic()
+    with alone(tmp_path / "locks", task, patience):
+        return time.monotonic() - begin
+
+
+def test_a_process_waits_for_another_at_the_same_task(holder, tmp_path):
+    holder("one", 1.0)
+    seconds_to_pass(tmp_path, "one")
+    assert (tmp_path / "done").exists()
+
+
+def test_it_does_not_wait_for_another_task(holder, tmp_path):
+    holder("one", 100.0)
+    assert seconds_to_pass(tmp_path, "another") < 30.0
+
+
+def test_a_process_that_is_killed_holds_nothing(holder, tmp_path):
+    process = holder("one", 100.0)
+    process.kill()
+    process.wait()
+    assert seconds_to_pass(tmp_path, "one") < 30.0
+
+
+def test_patience_ends(holder, tmp_path):
+    process = holder("one", 100.0)
+    assert seconds_to_pass(tmp_path, "one", patience=0.2) >= 0.2
+    assert process.poll() is None
+
+
+def test_where_nothing_can_be_locked_all_pass(tmp_path):
+    (tmp_path / "file").touch()
+    with alone(tmp_path / "file" / "locks", "one", 60.0):
+        pass
 
 
 # -- every command that writes a file --------------------------------------------------------------------------------

@@ -217,7 +217,7 @@ print(*islice(compile_ahead(), 2))
         for _ in range(2)
     ]
     assert [process.stdout.split() for process in done] == [["bridges", "and", "rupture", "curves"]] * 2
-    assert sorted(path.name.partition("-")[0] for path in tmp_path.iterdir()) == [
+    assert sorted(path.name.partition("-")[0] for path in tmp_path.glob("*.o")) == [
         "bridge_range",
         "curve_range",
         "end_range",
@@ -230,9 +230,17 @@ print(*islice(compile_ahead(), 2))
 
 SMALL = """
 import sys
+from pathlib import Path
 import numpy as np
 from pendular.ground import native, rows
 from own import double
+
+compiled = native._compiled
+def told(*question):
+    with open(Path(__file__).with_name("compiled"), "a") as file:
+        file.write("x")
+    return compiled(*question)
+native._compiled = told
 out = np.zeros(3)
 loads = native.load(double, (np.array([1.0, 2.0, 3.0]), out, 0, 3)) is not None
 with rows.by_machine_code():
@@ -313,8 +321,9 @@ def test_a_folder_that_cannot_be_written_only_costs_time(small):
 
 
 @COMPILER
-def test_processes_that_start_at_once_disturb_each_other_not(small):
+def test_of_processes_that_start_at_once_one_compiles(small):
     assert {finished(process)[0] for process in [started(small) for _ in range(4)]} == {12.0}
+    assert (small / "compiled").read_text() == "x"
     assert finished(started(small)) == (12.0, 1)
 
 

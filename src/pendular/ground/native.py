@@ -12,6 +12,7 @@ import hashlib
 import json
 import os
 import sys
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, ExitStack, contextmanager, suppress
 from functools import cache
@@ -22,55 +23,60 @@ from typing import Any
 import numpy as np
 
 from .compile import fastmath_of, rebound
-from .files import whole
+from .files import alone, whole
 from .stamp import stamp_of
 
-__all__ = ["build", "is_built", "load", "notices"]
+__all__ = ["build", "folder", "load", "notices"]
 
 Native = Callable[..., None]
 
 notices: list[Callable[[], AbstractContextManager[Any]]] = []  # what tells whoever waits while a kernel is compiled
 
+_LOCKS = "building.lock"  # in the folder of machine code
+_PATIENCE = 300.0  # with another process that compiles the same, [s]
 _SEAL = hashlib.sha256().digest_size
 _ANSWERS = (ctypes.c_void_p, ctypes.c_void_p)
+_loaded: dict[tuple[Callable[..., None], str], Native] = {}  # by kernel and types
+_building = threading.Lock()  # threads of a process compile one after the other in any case
 _NUMBERS = {bool: ctypes.c_int8, float: ctypes.c_double, Integral: ctypes.c_int64}
 
 
 def load(function: Callable[..., None], arguments: tuple[Any, ...]) -> Native | None:
     """Machine code of a kernel that returns nothing, for arguments of these types, None if there is no whole file."""
-    return _loaded(function, _types_of(arguments))
+    kind = function, _types_of(arguments)
+    if kind not in _loaded:
+        try:
+            sealed = _path_of(*kind).read_bytes()
+        except OSError:
+            return None
+        digest, content = sealed[:_SEAL], sealed[_SEAL:]
+        if hashlib.sha256(content).digest() != digest:
+            return None
+        _loaded[kind] = _linked(content)
+    return _loaded[kind]
 
 
-def is_built(function: Callable[..., None], arguments: tuple[Any, ...]) -> bool:
-    """Whether there is a file of machine code of a kernel for arguments of these types."""
-    return _path_of(function, _types_of(arguments)).exists()
+def build(function: Callable[..., None], arguments: tuple[Any, ...]) -> Native:
+    """Compile a kernel for arguments of these types, keep its machine code where that can be done, and load it.
 
-
-def build(function: Callable[..., None], arguments: tuple[Any, ...]) -> Native | None:
-    """Compile a kernel for arguments of these types, keep its machine code where that can be done, and load it."""
-    types = _types_of(arguments)
+    Of processes that begin at once one compiles, and the others wait for it.
+    """
+    kind = function, _types_of(arguments)
+    path = _path_of(*kind)
     with ExitStack() as told:
+        told.enter_context(_building)
         for notice in notices:
             told.enter_context(notice())
+        told.enter_context(alone(folder() / _LOCKS, path.name, _PATIENCE))
+        code = load(function, arguments)
+        if code is not None:
+            return code
         told.enter_context(_without_collector())
         content = _compiled(function, arguments)
-    with suppress(OSError):
-        path = _path_of(function, types)
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with whole(path) as draft:
+        with suppress(OSError), whole(path) as draft:
             draft.write_bytes(hashlib.sha256(content).digest() + content)
-    _loaded.cache_clear()
-    return _linked(content)
-
-
-@cache
-def _loaded(function: Callable[..., None], types: str) -> Native | None:
-    try:
-        sealed = _path_of(function, types).read_bytes()
-    except OSError:
-        return None
-    digest, content = sealed[:_SEAL], sealed[_SEAL:]
-    return _linked(content) if hashlib.sha256(content).digest() == digest else None
+    code = _loaded[kind] = _linked(content)
+    return code
 
 
 # -- the file --------------------------------------------------------------------------------------------------------
@@ -117,17 +123,18 @@ def _types_of(arguments: Any) -> str:
     return type(arguments).__name__
 
 
-def _flat(arguments: tuple[Any, ...]) -> Iterator[Any]:
+def _flat(arguments: tuple[Any, ...]) -> list[Any]:
     """Arguments as they are laid out: what owns an array is nobody, as code that returns nothing keeps none."""
+    flat: list[Any] = []
     for argument in arguments:
         if isinstance(argument, np.ndarray):
-            yield from (None, None, argument.size, argument.itemsize, argument.__array_interface__["data"][0])
-            yield from argument.shape
-            yield from argument.strides
+            address = argument.__array_interface__["data"][0]
+            flat += None, None, argument.size, argument.itemsize, address, *argument.shape, *argument.strides
         elif isinstance(argument, tuple):
-            yield from _flat(argument)
+            flat += _flat(argument)
         else:
-            yield float(argument) if isinstance(argument, float) else int(argument)
+            flat.append(float(argument) if isinstance(argument, float) else int(argument))
+    return flat
 
 
 def _layout(arguments: tuple[Any, ...]) -> Iterator[Any]:
