@@ -2,8 +2,10 @@
 
 import ast
 import os
+import runpy
 import subprocess
 import sys
+from functools import cache
 from importlib.util import resolve_name
 from pathlib import Path
 from shutil import copy
@@ -26,7 +28,8 @@ def scaled(operand, i):
     return FACTOR * element(operand, i)
 
 scaled = compiled(scaled)
-print(scaled(np.array([1.0, 4.0]), 1), sum(scaled.stats.cache_hits.values()))
+result = scaled(np.array([1.0, 4.0]), 1), sum(scaled.stats.cache_hits.values())
+print(*result)
 """
 ALONE = """
 import numpy as np
@@ -80,30 +83,45 @@ def answer(path, **environment):
     return finished(started(path, **environment))
 
 
-def test_a_second_process_compiles_nothing(script):
-    assert answer(script) == (8.0, 0)
-    assert answer(script) == (8.0, 1)
+@pytest.fixture
+def again(script, monkeypatch):
+    """Run the script in this process, as if it were a new one: nothing of it is remembered but what is on disk."""
+    config = pytest.importorskip("numba.core.config")
+    monkeypatch.setattr(config, "CACHE_DIR", str(script.parent / "kept"))
+    monkeypatch.syspath_prepend(script.parent)
+
+    def run():
+        sys.modules.pop("factor", None)
+        for remembered in (stamp.stamp_of, stamp._sources_of, stamp._modules, stamp._imported_by):
+            remembered.cache_clear()
+        return runpy.run_path(str(script))["result"]
+
+    yield run
+    sys.modules.pop("factor", None)
 
 
 @pytest.mark.parametrize("damage", [lambda b: b"", lambda b: b[: len(b) // 2], lambda b: b[:-9] + b"damaged!!"])
-def test_damaged_files_are_written_anew(script, damage):
-    answer(script)
+def test_damaged_files_are_written_anew(script, again, damage):
+    again()
     for kind in ("nbc", "nbi"):
         for path in (script.parent / "kept").rglob(f"*.{kind}"):
             path.write_bytes(damage(path.read_bytes()))
-        assert answer(script) == (8.0, 0), kind
-    assert answer(script) == (8.0, 1)
+        assert again() == (8.0, 0), kind
+    assert again() == (8.0, 1)
 
 
-def test_code_of_another_processor_or_function_is_not_run(script):
+def test_code_of_another_processor_or_function_is_not_run(script, again):
     """All data files exchanged: each is whole, and none is what its index says."""
-    answer(script)
+    again()
+    script.write_text(OWN_KERNEL.replace("scaled", "other"))
+    again()
+    script.write_text(OWN_KERNEL)
     files = sorted((script.parent / "kept").rglob("*.nbc"))
     assert len(files) > 1
     contents = [path.read_bytes() for path in files]
     for path, content in zip(files, contents[1:] + contents[:1], strict=True):
         path.write_bytes(content)
-    assert answer(script) == (8.0, 0)
+    assert again() == (8.0, 0)
 
 
 def test_two_that_save_at_once_do_not_answer_for_each_other(tmp_path):
@@ -122,7 +140,6 @@ def test_two_that_save_at_once_do_not_answer_for_each_other(tmp_path):
 def test_without_any_folder_it_compiles(script):
     (script.parent / "__pycache__").write_text("a file, where no folder can be made")
     nowhere = {"NUMBA_CACHE_DIR": os.devnull, "XDG_CACHE_HOME": os.devnull}
-    assert answer(script, **nowhere) == (8.0, 0)
     assert answer(script, **nowhere) == (8.0, 0)
 
 
@@ -145,14 +162,15 @@ def test_a_folder_that_goes_while_the_kernel_compiles(script):
 
 
 def test_many_processes_on_an_empty_cache(script):
-    assert {finished(process)[0] for process in [started(script) for _ in range(6)]} == {8.0}
+    assert {finished(process)[0] for process in [started(script) for _ in range(3)]} == {8.0}
     assert answer(script) == (8.0, 1)
 
 
-def test_a_neighbour_of_ones_own_kernel_outdates_it(script):
-    assert answer(script)[0] == 8.0
+def test_a_neighbour_of_ones_own_kernel_outdates_it(script, again, monkeypatch):
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)  # Python trusts size and times
+    assert again() == (8.0, 0)
     changed_in_silence(script.parent / "factor.py", "2.0", "3.0")
-    assert answer(script) == (12.0, 0)
+    assert again() == (12.0, 0)
 
 
 @pytest.fixture
@@ -183,41 +201,31 @@ def changed_in_silence(path, before, after):
     os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
 
 
-@pytest.mark.parametrize(
-    ("file", "before", "after", "expected"),
-    [
-        (
-            "ground/rows.py",
-            "return float(operand[min(i, operand.size - 1)])",
-            "return float(operand[min(0, operand.size - 1)])",
-            2.0,
-        ),
-        ("rooms/constants.py", "2.0", "5.0", 20.0),
-    ],
-)
-def test_a_change_anywhere_below_a_kernel_outdates_it(small_package, file, before, after, expected):
+def test_a_change_anywhere_below_a_kernel_outdates_it_and_one_beside_it_does_not(small_package):
     alone = {"PYTHONDONTWRITEBYTECODE": "1"}
-    assert answer(small_package, **alone)[0] == 8.0
-    changed_in_silence(small_package.parent / "pendular" / file, before, after)
-    assert answer(small_package, **alone) == (expected, 0)
+    package = small_package.parent / "pendular"
+    assert answer(small_package, **alone) == (8.0, 0)
+    changed_in_silence(package / "page.py", "no", "0 ")
+    assert answer(small_package, **alone) == (8.0, 1)
+    changed_in_silence(package / "rooms" / "constants.py", "2.0", "5.0")
+    assert answer(small_package, **alone) == (20.0, 0)
+    changed_in_silence(package / "ground" / "rows.py", "min(i, operand.size - 1)", "min(0, operand.size - 1)")
+    assert answer(small_package, **alone) == (5.0, 0)
 
 
-def test_a_change_beside_it_does_not(small_package):
-    answer(small_package)
-    changed_in_silence(small_package.parent / "pendular" / "page.py", "no", "0 ")
-    assert answer(small_package) == (8.0, 1)
-
-
-def parsed_imports(path, modules):
-    """Modules of the package that a file imports, by Python's own parser."""
+@cache
+def parsed_imports(path):
+    """All that the imports of a file may name, by Python's own parser."""
     name = stamp._module_name(path)
     package = name if path.stem == "__init__" else name.rpartition(".")[0]
+    names = set()
     for node in ast.walk(ast.parse(path.read_text())):
         if isinstance(node, ast.ImportFrom):
             origin = resolve_name("." * node.level + (node.module or ""), package)
-            yield from {origin, *(f"{origin}.{alias.name}" for alias in node.names)} & set(modules)
+            names |= {origin, *(f"{origin}.{alias.name}" for alias in node.names)}
         elif isinstance(node, ast.Import):
-            yield from {alias.name for alias in node.names} & set(modules)
+            names |= {alias.name for alias in node.names}
+    return names
 
 
 def test_the_stamp_covers_all_that_a_kernel_can_reach():
@@ -228,4 +236,4 @@ def test_the_stamp_covers_all_that_a_kernel_can_reach():
         covered = stamp._sources_of(path)
         assert {path, PACKAGE / "ground" / "compile.py"} <= covered
         for source in covered:
-            assert {modules[name] for name in parsed_imports(source, modules)} <= covered, (path, source)
+            assert {modules[name] for name in parsed_imports(source) & set(modules)} <= covered, (path, source)
