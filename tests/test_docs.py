@@ -36,7 +36,15 @@ ELSEWHERE = {
 }
 OWN = [name for name in PAGES if name not in ELSEWHERE]
 GROUPS = {"lammps.md": "lammps", "howto/own_data.md": "data"}  # what their code needs
-RUN_HERE = [pytest.param(name, marks=pytest.mark.needs(GROUPS[name])) if name in GROUPS else name for name in OWN]
+LONG = ("lammps.md", "howto/packings.md", "theory/paper.md")
+
+
+def marks_of(name: str) -> list[pytest.MarkDecorator]:
+    needed = [pytest.mark.needs(GROUPS[name])] if name in GROUPS else []
+    return needed + [pytest.mark.long] * (name in LONG)
+
+
+RUN_HERE = [pytest.param(name, marks=marks_of(name)) for name in OWN]
 
 
 @pytest.mark.parametrize("name", sorted(ELSEWHERE.keys() & PAGES.keys()))
