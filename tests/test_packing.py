@@ -258,6 +258,57 @@ def test_a_wall_is_a_grain_of_infinite_radius():
     np.testing.assert_allclose(sum(w.stress_shares), w.stress, atol=1e-12)
 
 
+@pytest.mark.parametrize("radii", [(1.0, 1.0), (1.0, 0.4)])
+@pytest.mark.parametrize("image", [0, 1])
+def test_bridges_meet_on_a_wall_where_their_contact_circles_do(radii, image):
+    b = pl.bridge(pl.Pair((radii, np.inf), (0.9, 0.1)), 0.0, suction=0.05, liquid=UNIT)
+    apart = b.contact_radius[:, 1].sum()
+    assert apart > 2 * math.sqrt(radii[0] * radii[1])  # the grains themselves do not touch
+    wall = [((0, 0, -0.3), (0, 0, 3.0))]
+    for factor, meets in ((1 - 1e-9, True), (1 + 1e-9, False)):
+        far = factor * apart * np.array([0.6, 0.8]) + image * np.array([200.0, 0.0])
+        places = [(1, 1, radii[0] - 0.3), (1 + far[0], 1 + far[1], radii[1] - 0.3), (80, 80, 0.7)]
+        heap = pl.Packing(places, [*radii, 1.0], (200, 200, 20), (True, True, False), wall)
+        w = pl.wet(heap, [0.9, 0.9, 0.9, 0.1], suction=0.05, liquid=UNIT, path="wetting", condensation=False)
+        assert len(w.bridges) == 3
+        assert w.is_pendular is not meets
+        assert w.meetings.pairs == meets
+        assert w.meetings.grains == pytest.approx(2 / 3 * meets)
+        share = w.bridges.volume[:2].sum() / w.liquid_volume
+        assert w.meetings.liquid == pytest.approx(share * meets)
+
+
+def test_bridges_of_two_grains_on_a_wall_meet_on_it_and_then_on_the_grains():
+    """Two grains that touch each other and a wall: contact circles on it of their radius, then a right angle."""
+    heap = pl.Packing([(0, 0, 1), (2, 0, 1)], 1.0, walls=[((0, 0, 0), (0, 0, 1))])
+    given = {"liquid": UNIT, "path": "wetting"}
+    found = pl.pendular_limit(heap, 0.0, **given)
+    beside = pl.bridge(pl.Pair((1.0, np.inf)), 0.0, suction=found, liquid=UNIT)
+    assert beside.contact_radius[1] == pytest.approx(1.0, abs=1e-9)
+    limit = found
+    for _ in range(60):
+        between = pl.bridge(pl.Pair(1.0), 0.0, suction=limit, liquid=UNIT)
+        below = pl.bridge(pl.Pair((1.0, np.inf)), 0.0, suction=limit, liquid=UNIT)
+        limit *= (between.half_filling_angle[0] + below.half_filling_angle[0]) / (0.5 * math.pi)
+    for suction, pairs in ((1.001 * found, 0), (0.999 * found, 1), (1.001 * limit, 1), (0.999 * limit, 3)):
+        w = pl.wet(heap, 0.0, suction=suction, **given)
+        assert w.meetings.pairs == pairs
+        assert w.meetings.grains == float(pairs > 0)
+        assert w.meetings.liquid == pytest.approx(
+            {0: 0.0, 1: w.bridges.volume[1:].sum() / w.liquid_volume, 3: 1.0}[pairs]
+        )
+
+
+def test_a_bridge_may_meet_its_own_image_on_a_wall():
+    given = {"contact_angle": [1.2, 0.0], "liquid": UNIT, "path": "wetting"}
+    radius = pl.bridge(pl.Pair((1.0, np.inf), (1.2, 0.0)), 0.0, suction=1e-3, liquid=UNIT).contact_radius[1]
+    for factor, meets in ((0.999, True), (1.001, False)):
+        edge = 2 * radius * factor
+        heap = pl.Packing([(0, 0, 1)], 1.0, (edge, 4 * radius, 9), (True, True, False), [((0, 0, 0), (0, 0, 1))])
+        w = pl.wet(heap, suction=1e-3, **given)
+        assert w.meetings == (float(meets), float(meets), int(meets))
+
+
 # --- tables ---
 
 

@@ -199,6 +199,77 @@ def test_blocks_add_up_to_the_heap(path, blocks):
     assert total.meeting_grains == w.meetings.grains > 0.0
 
 
+@pytest.mark.parametrize("path", ["drying", "wetting"])
+def test_blocks_with_walls_and_angles_by_grain_add_up(path):
+    """A slab between two walls, of grains with three contact angles and walls with their own."""
+    heap = loose(count=700, density=0.5)
+    height = heap.cell[2, 2]
+    inside = heap.positions - np.floor(heap.positions / np.diag(heap.cell)) * np.diag(heap.cell)
+    kept = np.flatnonzero((inside[:, 2] > heap.radii) & (inside[:, 2] < height - heap.radii))
+    touching = np.argsort(inside[kept, 2] - heap.radii[kept])[:3]
+    inside[kept[touching], 2] = heap.radii[kept[touching]]
+    walls = [((0, 0, 0), (0, 0, 1)), ((0, 0, height), (0, 0, -1))]
+    slab = pl.Packing(inside[kept], heap.radii[kept], heap.cell, (True, True, False), walls)
+    random = np.random.default_rng(SEED)
+    angles = np.append(random.choice([0.2, 0.5, 0.9], slab.count), [0.1, 0.7])
+    w = pl.wet(slab, angles, suction=1.0, liquid=UNIT, path=path)
+    at_wall = np.count_nonzero(w.bridges.pairs[:, 1] >= slab.count)
+    assert at_wall > (10 if path == "drying" else 2)
+    totals = [
+        wet_in_blocks(slab, angles, suction=1.0, liquid=UNIT, blocks=blocks, path=path)
+        for blocks in ((1, 1, 1), (2, 2, 1), (1, 2, 2))
+    ]
+    order = random.permutation(slab.count)
+
+    def grains_in(low, high):
+        chosen = order[np.all((slab.positions[order] >= low) & (slab.positions[order] < high), axis=1)]
+        return slab.positions[chosen], slab.radii[chosen], chosen
+
+    given = {"cell": np.diag(slab.cell), "periodic": slab.periodic.tolist(), "walls": walls, "radius_range": (1, 2)}
+    totals.append(wet_in_blocks(grains_in, angles, suction=1.0, liquid=UNIT, blocks=(2, 1, 2), path=path, **given))
+    for total in totals:
+        assert (total.grains, total.bridges) == (slab.count, len(w.bridges))
+        for name in ("saturation", "porosity", "interface_area", "chi", "coordination"):
+            assert getattr(total, name) == pytest.approx(getattr(w, name), rel=1e-11), name
+        np.testing.assert_allclose(total.stress, w.stress, atol=1e-11 * abs(w.stress).max())
+        assert total.meeting_grains == w.meetings.grains > 0.0
+
+
+def test_an_open_heap_goes_by_blocks():
+    periodic = loose(count=300, density=0.5)
+    heap = pl.Packing(periodic.positions - 7.0, periodic.radii)
+    w = pl.wet(heap, 0.3, suction=2.0, liquid=UNIT)
+    total = wet_in_blocks(heap, 0.3, suction=2.0, liquid=UNIT, blocks=(2, 1, 2))
+    assert (total.grains, total.bridges) == (heap.count, len(w.bridges))
+    assert total.saturation == pytest.approx(w.saturation, rel=1e-11)
+    np.testing.assert_allclose(total.stress, w.stress, atol=1e-11 * abs(w.stress).max())
+
+
 def test_blocks_that_are_too_narrow_are_refused():
     with pytest.raises(ValueError, match="blocks: 5 along direction 0 are narrower than twice their halo"):
         wet_in_blocks(loose(count=60), 0.3, suction=2.0, liquid=UNIT, blocks=(5, 1, 1))
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"contact_angle": [0.1, 0.2]}, r"contact_angle: an array of shape \(2,\) is not one angle nor one for each"),
+        ({"cell": (9, 9, 9)}, "cell: has no effect beside a Packing"),
+        ({"blocks": 2}, "blocks: 2 is not three numbers"),
+        ({"source": pl.Packing([(0, 0, 0)], 1.0, cell=[(9, 0, 0), (1, 9, 0), (0, 0, 9)])}, "cell: it is not upright"),
+        ({"source": lambda low, high: None}, "source: a function needs cell and radius_range beside it"),
+    ],
+)
+def test_bad_blocks_are_refused(changes, message):
+    given = {"source": simple_cubic(6), "contact_angle": 0.3, "suction": 2.0, "liquid": UNIT, "blocks": (1, 1, 1)}
+    with pytest.raises(ValueError, match=f"^{message}") as refused:
+        wet_in_blocks(**(given | changes))
+    assert "\n" not in str(refused.value)
+
+
+def test_blocks_name_wrong_grains_by_their_numbers():
+    heap = simple_cubic(8)
+    centres = heap.positions.copy()
+    centres[400] = centres[401]
+    with pytest.raises(ValueError, match=r"^positions: grains 400 and 401 have the same centre"):
+        wet_in_blocks(pl.Packing(centres, 1.0, cell=heap.cell), 0.3, suction=20.0, liquid=UNIT, blocks=(2, 2, 2))

@@ -8,29 +8,32 @@ gives, to rounding.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from ..ask.face import bridge
 from ..ask.liquid import Liquid
-from ..ground.check import in_range, instance, one_of, scalar, whole_number
+from ..ask.pair import Pair
+from ..ground.check import angle, in_range, instance, one_of, quantity, scalar, whole_number
 from .answers import answers_at, geometry_of
-from .heap import Packing
+from .heap import Packing, Wall, cell_of, periodic_of, wall_of
 from .history import members_of
 from .meetings import mark_meetings
 from .neighbours import arms_of, reach_table, within
-from .setting import reach_at, setting_of
-from .shape import AREA, FILLING_1, FILLING_2
+from .setting import Setting, reach_at, setting_of
+from .shape import AREA
 from .solids import check_overlaps, solid_volume_of
 from .stress import stress_sum
 
 __all__ = ["Part", "Totals", "wet_in_blocks"]
 
 Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
 Source = Callable[[Floats, Floats], tuple[Floats, Floats, NDArray[np.int64]]]
 
 
@@ -76,12 +79,14 @@ class Totals:
 
 def wet_in_blocks(
     source: Packing | Source,
-    contact_angle: float,
+    contact_angle: ArrayLike,
     *,
     suction: float,
     liquid: Liquid,
     blocks: tuple[int, int, int],
     cell: Floats | None = None,
+    periodic: bool | Sequence[bool] = True,
+    walls: Sequence[Wall] = (),
     radius_range: tuple[float, float] | None = None,
     path: Literal["drying", "wetting"] = "drying",
     formation_distance: float = 0.0,
@@ -94,21 +99,22 @@ def wet_in_blocks(
     Parameters
     ----------
     source : Packing or callable
-        The grains in an upright cell that is periodic in all directions. A function is asked with the lower and the
-        upper corner of a box, [m], (3,) each, and returns centres, radii and numbers of the grains that lie in it,
-        from the lower corner on and up to the upper one without it.
-    contact_angle : float
-        On all grains, [rad].
+        The grains, in an upright cell or in none. A function is asked with the lower and the upper corner of a box,
+        [m], (3,) each, and returns centres, radii and numbers of the grains that lie in it, from the lower corner on
+        and up to the upper one without it. Along directions that do not repeat the outermost boxes have no end.
+    contact_angle : float or array_like, (grains + walls,)
+        On all bodies, or on each grain by its number and then each wall, [rad].
     suction : float
         [Pa], > 0.
     liquid : Liquid
         Surface tension.
     blocks : three int
         Along each direction; each block is at least twice as wide as its halo, the reach of a bridge.
-    cell, radius_range : array_like, (3,) and (2,)
-        Lengths of the cell, and smallest and largest radius, [m], where the source is a function.
+    cell, periodic, walls, radius_range : optional
+        Where the source is a function: lengths of the cell, [m], (3,), the directions that repeat, the walls, and the
+        smallest and the largest radius, [m].
     path, formation_distance, condensation, method
-        As for :func:`wet`.
+        As for :func:`wet`; ``"auto"`` decides for each block.
     client : distributed.Client, optional
         Workers to share the blocks; else they are worked on here, one after another.
 
@@ -121,7 +127,7 @@ def wet_in_blocks(
     Raises
     ------
     ValueError
-        For bad input, blocks that are narrower than the halo, walls or a cell that is not upright and periodic.
+        For bad input, blocks that are narrower than the halo, or a cell that is not upright.
 
     Examples
     --------
@@ -136,18 +142,19 @@ def wet_in_blocks(
     if not isinstance(blocks, tuple | list) or len(blocks) != 3:
         raise ValueError(f"blocks: {blocks!r} is not three numbers")
     counts = np.array([whole_number("blocks", count, 1) for count in blocks])
-    lengths, sizes, ask = _source_of(source, cell, radius_range)
-    rules = {"formation_distance": formation_distance, "condensation": condensation, "method": method}
-    extremes = Packing(np.array([(0.0, 0.0, 0.0), (9.0 * sizes[1], 0.0, 0.0)]), np.array(sizes))
-    setting = setting_of(extremes, contact_angle, liquid, formation_distance, condensation, method)
-    reach = 2.0 * sizes[1] + reach_table(extremes, reach_at(setting, "suction", asked)).most
-    width = lengths / counts
+    frame = _frame_of(source, cell, periodic, walls, radius_range)
+    angles = _angles_of(source, frame, contact_angle)
+    one = Packing(np.zeros((1, 3)), np.array(frame.largest))
+    setting = setting_of(one, float(angles.flat[0]), liquid, formation_distance, condensation, method)
+    margin = _halo_width(setting._replace(angles=np.unique(angles)), asked, bool(frame.walls))
+    width = frame.lengths / counts
     for k in range(3):
-        if width[k] < 2.0 * reach:
+        if (frame.periodic[k] or counts[k] > 1) and width[k] < 2.0 * margin:
             raise ValueError(
-                f"blocks: {counts[k]} along direction {k} are narrower than twice their halo of {reach:.3g} m"
+                f"blocks: {counts[k]} along direction {k} are narrower than twice their halo of {margin:.3g} m"
             )
-    task = _Task(lengths, width, counts, reach, contact_angle, asked, liquid, path == "drying", rules, ask)
+    rules = {"formation_distance": formation_distance, "condensation": condensation, "method": method}
+    task = _Task(frame, width, counts, margin, angles, asked, liquid, path == "drying", rules)
     corners = list(product(*(range(count) for count in counts)))
     if client is None:
         parts: Iterator[Part] = (_part_of(task, corner) for corner in corners)
@@ -156,45 +163,86 @@ def wet_in_blocks(
     return _added(parts, task)
 
 
+class _Frame(NamedTuple):
+    """Where the grains are."""
+
+    origin: Floats
+    lengths: Floats  # of the cell, or of the box around the grains
+    periodic: Bools
+    walls: tuple[Wall, ...]
+    largest: float  # radius
+    ask: Source
+
+
 class _Task(NamedTuple):
     """What all blocks share."""
 
-    lengths: Floats
+    frame: _Frame
     width: Floats
     counts: NDArray[np.int64]
-    reach: float  # between centres of grains that hold a bridge
-    angle: float
+    margin: float  # of the halo
+    angles: Floats  # one, or of each grain and then each wall
     suction: float
     liquid: Liquid
     is_drying: bool
     rules: dict[str, Any]
-    ask: Source
 
 
-def _source_of(source: Packing | Source, cell: Any, radius_range: Any) -> tuple[Floats, tuple[float, float], Source]:
-    """Lengths of the cell, smallest and largest radius, and the grains of a box."""
+def _frame_of(source: Packing | Source, cell: Any, periodic: Any, walls: Any, radius_range: Any) -> _Frame:
     if callable(source):
         if cell is None or radius_range is None:
             raise ValueError("source: a function needs cell and radius_range beside it")
-        return np.asarray(cell, float), (float(radius_range[0]), float(radius_range[1])), source
+        box, repeats = cell_of(cell), periodic_of(periodic)
+        planes = tuple(wall_of(i, wall, box, repeats) for i, wall in enumerate(walls))
+        largest = float(np.max(in_range("radius_range", quantity("radius_range", radius_range, "m"), 0.0, unit="m")))
+        return _Frame(np.zeros(3), _lengths_of(box), repeats, planes, largest, source)
     instance("source", source, Packing)
-    cell = source.box
-    if (
-        source.cell is None
-        or np.count_nonzero(cell - np.diag(np.diag(cell)))
-        or not source.periodic.all()
-        or source.walls
-    ):
-        raise ValueError("source: the cell is not upright and periodic in all directions, without walls")
-    lengths = np.diag(cell)
-    inside = source.positions - np.floor(source.positions / lengths) * lengths
+    given = {"cell": cell, "radius_range": radius_range, "walls": walls or None}
+    for name, value in given.items():
+        if value is not None:
+            raise ValueError(f"{name}: has no effect beside a Packing, which has its own")
+    lengths, radii = _lengths_of(source.box), source.radii
+    origin = np.zeros(3) if source.cell is not None else (source.positions - radii[:, None]).min(axis=0)
+    inside = source.positions - np.where(source.periodic, np.floor(source.positions / lengths) * lengths, 0.0)
+    inside = np.where(source.periodic & (inside >= lengths), 0.0, inside)  # by rounding
     numbers = np.arange(source.count)
 
     def grains_in(low: Floats, high: Floats) -> tuple[Floats, Floats, NDArray[np.int64]]:
         chosen = np.flatnonzero(np.all((inside >= low) & (inside < high), axis=1))
-        return inside[chosen], source.radii[chosen], numbers[chosen]
+        return inside[chosen], radii[chosen], numbers[chosen]
 
-    return lengths, (float(source.radii.min()), float(source.radii.max())), grains_in
+    return _Frame(origin, lengths, source.periodic, source.walls, float(radii.max()), grains_in)
+
+
+def _lengths_of(box: Floats) -> Floats:
+    lengths = np.diag(box)
+    if np.count_nonzero(box - np.diag(lengths)) or np.any(lengths <= 0.0):
+        raise ValueError("cell: it is not upright, as blocks need it")
+    return lengths
+
+
+def _angles_of(source: Packing | Source, frame: _Frame, contact_angle: ArrayLike) -> Floats:
+    """Contact angle of all bodies, or of each grain and then each wall."""
+    angles = angle("contact_angle", contact_angle)
+    grains = len(angles) - len(frame.walls) if angles.ndim == 1 else 0
+    if angles.ndim == 0 or (grains > 0 and grains == (grains if callable(source) else source.count)):
+        return angles
+    walls = f" and {len(frame.walls)} walls" if frame.walls else ""
+    raise ValueError(
+        f"contact_angle: an array of shape {angles.shape} is not one angle nor one for each of the grains{walls}"
+    )
+
+
+def _halo_width(setting: Setting, suction: float, has_walls: bool) -> float:
+    """Largest distance between centres of grains that hold a bridge, or whose bridges meet on a wall."""
+    radius = setting.heap.radii
+    margin = float(2.0 * radius[0] + reach_at(setting, "suction", suction)(radius, radius)[0])
+    if has_walls:
+        angles = np.unique(np.quantile(setting.angles, (0.0, 0.5, 1.0)))
+        pairs = Pair((radius[0], np.inf), (angles, angles[:, None]))
+        circle = bridge(pairs, 0.0, suction=suction, liquid=setting.liquid).contact_radius
+        margin = max(margin, 2.1 * float(np.nan_to_num(circle[..., 1]).max()))
+    return margin
 
 
 def _submitted(client: Any, task: _Task, corners: list[tuple[int, ...]]) -> Iterator[Any]:
@@ -209,16 +257,18 @@ def _submitted(client: Any, task: _Task, corners: list[tuple[int, ...]]) -> Iter
     yield from waiting
 
 
-def _halo(task: _Task, corner: tuple[int, ...]) -> tuple[Floats, Floats, NDArray[np.int64], NDArray[np.bool_]]:
+def _halo(task: _Task, corner: tuple[int, ...]) -> tuple[Floats, Floats, NDArray[np.int64], Bools]:
     """Grains of a block and around it: centres beside each other, radii, numbers, and which lie in the block."""
-    low, high = np.array(corner) * task.width, (np.array(corner) + 1) * task.width
-    high = np.where(np.array(corner) + 1 == task.counts, task.lengths, high)
-    margin = task.reach
-    found: list[tuple[Floats, Floats, NDArray[np.int64], NDArray[np.bool_]]] = []
-    spans = [_spans(low[k], high[k], margin, task.lengths[k], task.counts[k] == 1) for k in range(3)]
+    frame, place = task.frame, np.array(corner)
+    low = frame.origin + place * task.width
+    high = np.where(place + 1 == task.counts, frame.origin + frame.lengths, low + task.width)
+    low = np.where(~frame.periodic & (place == 0), -np.inf, low)
+    high = np.where(~frame.periodic & (place + 1 == task.counts), np.inf, high)
+    found: list[tuple[Floats, Floats, NDArray[np.int64], Bools]] = []
+    spans = [_spans(task, k, low[k], high[k]) for k in range(3)]
     for choice in product(*spans):
         start, stop, shift = (np.array(values) for values in zip(*choice, strict=True))
-        centres, radii, numbers = task.ask(start, stop)
+        centres, radii, numbers = frame.ask(start, stop)
         is_own = np.full(len(radii), bool(np.all(shift == 0.0)))
         is_own &= np.all((centres >= low) & (centres < high), axis=1)
         found.append((centres + shift, radii, numbers, is_own))
@@ -226,9 +276,12 @@ def _halo(task: _Task, corner: tuple[int, ...]) -> tuple[Floats, Floats, NDArray
     return centres, radii, numbers, is_own
 
 
-def _spans(low: float, high: float, margin: float, length: float, is_alone: bool) -> list[tuple[float, float, float]]:
-    """Parts of a cell within a margin of a block: from, to, and by how much they are moved to lie beside it."""
-    if is_alone:
+def _spans(task: _Task, k: int, low: float, high: float) -> list[tuple[float, float, float]]:
+    """Parts of the heap within the halo of a block: from, to, and by how much they are moved to lie beside it."""
+    margin, length = task.margin, float(task.frame.lengths[k])
+    if not task.frame.periodic[k]:
+        return [(low - margin, high + margin, 0.0)]
+    if task.counts[k] == 1:
         return [(0.0, length, 0.0), (length - margin, length, -length), (0.0, margin, length)]
     start, stop = low - margin, high + margin
     spans = [(max(start, 0.0), min(stop, length), 0.0)]
@@ -244,20 +297,23 @@ def _part_of(task: _Task, corner: tuple[int, ...]) -> Part:
     centres, radii, numbers, is_own = _halo(task, corner)
     if not is_own.any():
         return Part(0, 0, 0.0, 0.0, np.zeros((3, 3)), 0.0, 0, 0)
-    heap = Packing(centres, radii)
-    setting = setting_of(heap, task.angle, task.liquid, **task.rules)
+    walls = task.frame.walls
+    heap = Packing(centres, radii, walls=walls)
+    setting = setting_of(heap, _angles_in(task, numbers), task.liquid, **task.rules)
     near = within(heap, reach_table(heap, reach_at(setting, "suction", task.suction)))
-    near = near.taken(is_own[near.pairs[:, 0]] | is_own[near.pairs[:, 1]])
+    is_own = np.concatenate([is_own, np.zeros(len(walls), bool)])  # of all bodies now
+    is_at_wall = near.pairs[:, 1] >= heap.count
+    near = near.taken(is_own[near.pairs].any(axis=1) | is_at_wall)
     answers = answers_at(setting, near, "suction", np.array([task.suction]))
-    check_overlaps(heap, near)
+    check_overlaps(heap, near, numbers)
     members = members_of(setting, near, answers, task.is_drying)
     counted = is_own[_lower(near.pairs, numbers)]
-    solid = 4.0 / 3.0 * math.pi * float(np.sum(radii[is_own] ** 3))
+    solid = 4.0 / 3.0 * math.pi * float(np.sum(radii[is_own[: heap.count]] ** 3))
     lenses = solid_volume_of(heap, near.taken(counted)) - 4.0 / 3.0 * math.pi * float(np.sum(radii**3))
     held, answers, counted = near.taken(members), answers.taken(members), counted[members]
     shape = geometry_of(setting, held, answers)
     normals, lengths = arms_of(heap, held)
-    count, _ = mark_meetings(heap.count, held.pairs, normals, shape[:, FILLING_1 : FILLING_2 + 1])
+    marks = mark_meetings(heap, held, normals, shape)
     return Part(
         int(np.count_nonzero(is_own)),
         int(np.count_nonzero(counted)),
@@ -265,15 +321,28 @@ def _part_of(task: _Task, corner: tuple[int, ...]) -> Part:
         float(np.sum(shape[counted, AREA])),
         stress_sum(answers.force[counted], normals[counted], lengths[counted]),
         solid + lenses,
-        int(np.count_nonzero(count[is_own])),
+        int(np.count_nonzero(marks.grains & is_own[: heap.count])),
         int(np.count_nonzero(is_own[held.pairs])),
     )
+
+
+def _angles_in(task: _Task, numbers: NDArray[np.int64]) -> Floats:
+    """Contact angles of grains by their numbers in the whole heap, and of the walls."""
+    if task.angles.ndim == 0:
+        return task.angles
+    grains = len(task.angles) - len(task.frame.walls)
+    if int(numbers.max()) >= grains:
+        raise ValueError(
+            f"contact_angle: none for grain {int(numbers.max())}, the last of {grains} is grain {grains - 1}"
+        )
+    return np.concatenate([task.angles[numbers], task.angles[grains:]])
 
 
 def _lower(pairs: NDArray[np.int32], numbers: NDArray[np.int64]) -> NDArray[np.int32]:
     """Grain of each pair that has the smaller number in the whole heap."""
     first, second = pairs.T
-    return np.where(numbers[first] < numbers[second], first, second)
+    grains = len(numbers)
+    return np.where((second >= grains) | (numbers[first] < numbers[np.minimum(second, grains - 1)]), first, second)
 
 
 def _added(parts: Iterator[Part], task: _Task) -> Totals:
@@ -281,7 +350,7 @@ def _added(parts: Iterator[Part], task: _Task) -> Totals:
     for part in parts:
         sums: list[Any] = [mine + theirs for mine, theirs in zip(list[Any](total), part, strict=True)]
         total = Part(*sums)
-    volume = float(np.prod(task.lengths))
+    volume = float(np.prod(task.frame.lengths))
     pores = volume - total.solid
     return Totals(
         total.grains,

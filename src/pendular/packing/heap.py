@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..ground.check import in_range, quantity, unmasked
 
-__all__ = ["Packing", "PackingWarning", "Wall"]
+__all__ = ["Packing", "PackingWarning", "Wall", "cell_of", "periodic_of", "wall_of"]
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -71,9 +71,9 @@ class Packing:
             raise ValueError(
                 f"radii: an array of shape {radii.shape} is not one radius for each of {len(centres)} grains"
             )
-        cell = None if self.cell is None else _cell_of(self.cell)
-        periodic = _periodic(self.periodic) if cell is not None else np.zeros(3, bool)
-        walls = tuple(_wall_of(i, wall, cell, periodic) for i, wall in enumerate(self.walls))
+        cell = None if self.cell is None else cell_of(self.cell)
+        periodic = periodic_of(self.periodic) if cell is not None else np.zeros(3, bool)
+        walls = tuple(wall_of(i, wall, cell, periodic) for i, wall in enumerate(self.walls))
         checked = {
             "positions": np.ascontiguousarray(centres),
             "radii": np.full(len(centres), float(radii)) if radii.ndim == 0 else np.ascontiguousarray(radii),
@@ -148,7 +148,7 @@ def _centres(positions: ArrayLike) -> Floats:
     return centres
 
 
-def _cell_of(cell: ArrayLike) -> Floats:
+def cell_of(cell: ArrayLike) -> Floats:
     """Vectors of the cell as rows."""
     array = quantity("cell", cell, "m")
     if array.shape == (3,):
@@ -161,14 +161,15 @@ def _cell_of(cell: ArrayLike) -> Floats:
     return array.copy()
 
 
-def _periodic(periodic: Any) -> Bools:
+def periodic_of(periodic: Any) -> Bools:
+    """Which directions repeat."""
     array = np.asarray(unmasked("periodic", periodic))
     if array.dtype != np.bool_ or array.shape not in ((), (3,)):
         raise ValueError(f"periodic: {periodic!r} is not one or three of True and False")
     return np.broadcast_to(array, (3,)).copy()
 
 
-def _wall_of(i: int, wall: Any, cell: Floats | None, periodic: Bools) -> Wall:
+def wall_of(i: int, wall: Any, cell: Floats | None, periodic: Bools) -> Wall:
     """Wall with a unit normal, along all periodic directions."""
     if not isinstance(wall, Sequence) or len(wall) != 2:
         raise ValueError(f"walls[{i}]: {wall!r} is not a point and a normal")

@@ -15,7 +15,6 @@ from .history import pairs_at, step_at
 from .meetings import mark_meetings
 from .neighbours import Neighbours, arms_of
 from .setting import Setting, setting_of
-from .shape import FILLING_1, FILLING_2
 
 __all__ = ["limit_between", "pendular_limit"]
 
@@ -35,7 +34,7 @@ def pendular_limit(
     condensation: bool = True,
     method: Literal["auto", "exact", "table"] = "auto",
 ) -> float:
-    r"""Suction below which bridges meet on a grain, :math:`\delta_a + \delta_b \ge \angle(\mathbf n_a, \mathbf n_b)`.
+    r"""Suction below which bridges meet, :math:`\delta_a + \delta_b \ge \angle(\mathbf n_a, \mathbf n_b)` on a grain.
 
     Parameters
     ----------
@@ -96,7 +95,6 @@ def _meeting(setting: Setting, pairs: Neighbours, suction: float, is_drying: boo
     step = step_at(setting, pairs, suction, is_drying)
     held, answers = pairs.taken(step.members), step.answers.taken(step.members)
     normals, _ = arms_of(setting.heap, held)
-    filling = geometry_of(setting, held, answers)[:, FILLING_1 : FILLING_2 + 1]
     meets = np.zeros(len(pairs.gap), bool)
-    meets[step.members] = mark_meetings(setting.heap.count, held.pairs, normals, filling)[1]
+    meets[step.members] = mark_meetings(setting.heap, held, normals, geometry_of(setting, held, answers)).bridges
     return meets

@@ -1,4 +1,4 @@
-"""Where bridges on one grain meet: there the pendular state ends."""
+"""Where bridges on one grain or one wall meet: there the pendular state ends."""
 
 import math
 from typing import NamedTuple
@@ -8,20 +8,27 @@ from numpy.typing import NDArray
 
 from ..ground.compile import compiled, kernel
 from ..ground.rows import entry, over_rows
+from .heap import Packing
+from .neighbours import Neighbours, find_neighbours
+from .shape import FILLING_1, FILLING_2, WETTED_2
 
-__all__ = ["Meetings", "mark_meetings", "meetings_of"]
+__all__ = ["Marks", "Meetings", "mark_meetings", "meetings_of"]
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
+Bools = NDArray[np.bool_]
 
 _CHUNK = 16384
 _ROUNDING = 1e-12  # of the cosine of an angle
 
 
 class Meetings(NamedTuple):
-    """Two bridges on one grain meet where their half-filling angles add up to the angle between them."""
+    """Two bridges meet on a grain where their half-filling angles add up to the angle between them.
 
-    grains: float  # share of the grains on which bridges meet
+    On a wall they meet where their contact circles do; it counts for both grains.
+    """
+
+    grains: float  # share of the grains on which bridges meet, or whose bridge meets another on a wall
     liquid: float  # share of the liquid in such bridges
     pairs: int  # of bridges that meet
 
@@ -31,36 +38,69 @@ class Meetings(NamedTuple):
         return self.pairs > 0
 
 
-def meetings_of(grains: int, pairs: NDArray[np.int32], normals: Floats, filling: Floats, volume: Floats) -> Meetings:
+class Marks(NamedTuple):
+    """Where bridges meet."""
+
+    grains: Bools
+    bridges: Bools
+    pairs: int
+
+
+def meetings_of(heap: Packing, bridges: Neighbours, normals: Floats, shape: Floats, volume: Floats) -> Meetings:
     """Meetings of the bridges of a heap.
 
     Parameters
     ----------
-    grains : int
-        Their number; bodies from there on are walls.
-    pairs, normals, filling, volume : ndarray
-        (n, 2), (n, 3) from the first to the second, (n, 2), (n,).
+    heap : Packing
+        The grains.
+    bridges : Neighbours
+        Pairs that hold one.
+    normals, shape, volume : ndarray
+        (n, 3) from the first to the second, (n, 7) columns of `shape`, (n,).
 
     Returns
     -------
     Meetings
     """
-    if not len(pairs) or not grains:
+    if not len(bridges.pairs):
         return Meetings(0.0, 0.0, 0)
-    count, meets = mark_meetings(grains, pairs, normals, filling)
-    share = float(np.sum(volume[meets]) / np.sum(volume))
-    return Meetings(float(np.count_nonzero(count)) / grains, share, int(np.sum(count)))
+    marks = mark_meetings(heap, bridges, normals, shape)
+    share = float(np.sum(volume[marks.bridges]) / np.sum(volume))
+    return Meetings(float(np.count_nonzero(marks.grains)) / heap.count, share, marks.pairs)
 
 
-def mark_meetings(
-    grains: int, pairs: NDArray[np.int32], normals: Floats, filling: Floats
-) -> tuple[Integers, NDArray[np.bool_]]:
-    """Meetings on each grain, and whether a bridge is in one."""
-    first, order = compiled(_ends_by_grain)(pairs, grains)
-    count = np.zeros(grains, np.int64)
+def mark_meetings(heap: Packing, bridges: Neighbours, normals: Floats, shape: Floats) -> Marks:
+    """Which grains and bridges are in a meeting; arguments as for :func:`meetings_of`."""
+    pairs = bridges.pairs
+    first, order = compiled(_ends_by_grain)(pairs, heap.count)
+    count = np.zeros(heap.count, np.int64)
     meets = np.zeros(len(pairs), bool)
-    over_rows(_meeting_range, grains, _CHUNK, first, order, normals, filling, count, meets)
-    return count, meets
+    filling = shape[:, FILLING_1 : FILLING_2 + 1]
+    over_rows(_meeting_range, heap.count, _CHUNK, first, order, normals, filling, count, meets)
+    grains, number = count > 0, int(np.sum(count))
+    for wall in range(heap.count, heap.count + len(heap.walls)):
+        there = np.flatnonzero(pairs[:, 1] == wall)
+        if len(there) == 0:
+            continue
+        overlaps = _overlaps_on_wall(heap, wall - heap.count, pairs[there, 0], shape[there, WETTED_2])
+        meets[there[overlaps]] = True
+        grains[pairs[there[overlaps], 0]] = True
+        number += len(overlaps)
+    return Marks(grains, meets, number)
+
+
+def _overlaps_on_wall(heap: Packing, number: int, grains: NDArray[np.int32], area: Floats) -> Integers:
+    """Pairs of contact circles on a wall that overlap, (n, 2): as spheres about the same centres would."""
+    wall, centres = heap.walls[number], heap.positions[grains]
+    feet = centres - ((centres - wall.point) @ wall.normal)[:, None] * wall.normal
+    circles = Packing(feet, np.sqrt(area / math.pi), heap.cell, heap.periodic)
+    if heap.cell is not None:  # large circles may meet images of themselves
+        width = 1.0 / np.linalg.norm(np.linalg.inv(heap.cell), axis=0)
+        times = np.where(heap.periodic, np.ceil(4.0 * circles.radii.max() / width), 1.0)
+        circles = circles.repeated(tuple(times.astype(int).tolist()))
+    found = find_neighbours(circles, lambda first, second: 0.0 * first).pairs
+    found = np.sort(found.astype(np.int64) % len(grains), axis=1)
+    return np.unique(found, axis=0)
 
 
 @kernel

@@ -37,7 +37,7 @@ QUANTITIES = {
     "chi": ("", "suction stress over suction"),
     "interface_area": ("1/m", "menisci over the cell"),
     "coordination": ("", "bridges a grain"),
-    "meeting_grains": ("", "share of grains on which bridges meet"),
+    "meeting_grains": ("", "share of grains whose bridges meet"),
     "meeting_liquid": ("", "share of liquid in bridges that meet"),
 }
 

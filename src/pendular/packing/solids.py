@@ -11,8 +11,8 @@ __all__ = ["check_overlaps", "pore_volume_of", "solid_volume_of"]
 Floats = NDArray[np.float64]
 
 
-def check_overlaps(heap: Packing, neighbours: Neighbours) -> None:
-    """Refuse grains in one place, and one inside another."""
+def check_overlaps(heap: Packing, neighbours: Neighbours, numbers: NDArray[np.integer] | None = None) -> None:
+    """Refuse grains in one place, and one inside another; ``numbers`` are their names if they have others."""
     overlap = np.flatnonzero(neighbours.gap < 0.0)
     i, j = neighbours.pairs[overlap].T
     between = j < heap.count
@@ -20,12 +20,11 @@ def check_overlaps(heap: Packing, neighbours: Neighbours) -> None:
     distance = neighbours.gap[overlap] + heap.radii[i] + heap.radii[j]
     inside = np.flatnonzero(distance <= np.abs(heap.radii[i] - heap.radii[j]) + 1e-12 * heap.radii[i])
     if inside.size:
-        first, second = int(i[inside[0]]), int(j[inside[0]])
-        if distance[inside[0]] <= 1e-12 * heap.radii[first]:
-            raise ValueError(f"positions: grains {first} and {second} have the same centre")
-        if heap.radii[first] > heap.radii[second]:
-            first, second = second, first
-        raise ValueError(f"positions: grain {first} lies inside grain {second}")
+        pair = sorted((int(i[inside[0]]), int(j[inside[0]])), key=lambda grain: heap.radii[grain])
+        small, large = pair if numbers is None else (int(numbers[grain]) for grain in pair)
+        if distance[inside[0]] <= 1e-12 * heap.radii[pair[0]]:
+            raise ValueError(f"positions: grains {small} and {large} have the same centre")
+        raise ValueError(f"positions: grain {small} lies inside grain {large}")
 
 
 def solid_volume_of(heap: Packing, neighbours: Neighbours) -> float:

@@ -123,9 +123,9 @@ def wet(
 
     Notes
     -----
-    **Validity.** No gravity, no roughness; each bridge as if it were alone. Where two meet on a grain,
-    ``meetings`` tells so and all numbers are those of overlapping bridges. Grains that overlap count as touching.
-    Bodies touch up to 1e-9 of the smaller radius, the rounding of positions.
+    **Validity.** No gravity, no roughness; each bridge as if it were alone. Where two meet on a grain
+    or on a wall, ``meetings`` tells so and all numbers are those of overlapping bridges. Grains that overlap count as
+    touching. Bodies touch up to 1e-9 of the smaller radius, the rounding of positions.
 
     A given amount is distributed in steps: a bridge that breaks leaves its liquid to the others at a lower suction. The
     least suction tried is 0.01 γ/R with the largest grain; what bridges do not hold there is ``unheld``.

@@ -43,6 +43,11 @@ class BridgesOfHeap:
         return len(self.separation)
 
     @property
+    def neighbours(self) -> Neighbours:
+        """Pairs, images and separations as one record."""
+        return Neighbours(self.pairs, self.image, self.separation)
+
+    @property
     def force(self) -> Floats:
         """Attraction, [N]."""
         return self._answers.force
@@ -159,8 +164,7 @@ class Wet:
     def stress_shares(self) -> Shares:
         """Parts of the stress that liquid, menisci and grains carry, (3, 3) each, [Pa]."""
         bridges = self.bridges
-        near = Neighbours(bridges.pairs, bridges.image, bridges.separation)
-        sums = shares_of(self._setting, near, bridges.normal, bridges._answers, bridges._shape)
+        sums = shares_of(self._setting, bridges.neighbours, bridges.normal, bridges._answers, bridges._shape)
         return Shares(*(part / self.heap.volume for part in sums))
 
     @property
@@ -196,14 +200,9 @@ class Wet:
 
     @cached_property
     def meetings(self) -> Meetings:
-        """Bridges that meet on a grain."""
-        return meetings_of(
-            self.heap.count,
-            self.bridges.pairs,
-            self.bridges.normal,
-            self.bridges.half_filling_angle,
-            self.bridges.volume,
-        )
+        """Bridges that meet on a grain or on a wall."""
+        bridges = self.bridges
+        return meetings_of(self.heap, bridges.neighbours, bridges.normal, bridges._shape, bridges.volume)
 
     @property
     def is_pendular(self) -> bool:
