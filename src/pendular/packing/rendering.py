@@ -9,14 +9,14 @@ from numpy.typing import NDArray
 from ..ground.compile import compiled, kernel
 from .wetted import Wet
 
-__all__ = ["View", "image_of", "view_of"]
+__all__ = ["LIGHT", "SHADE", "View", "image_of", "inside_of", "meridians_of", "shape_of", "view_of"]
 
 Floats = NDArray[np.float64]
 
 _ANGLES = math.radians(35.0), math.radians(25.0)  # by which the heap is turned, and looked down upon
 _MARGIN = 1.02
-_LIGHT = np.array([-0.45, 0.55, 0.70])
-_SHADE = 0.45  # brightness of what turns away from the light
+LIGHT = np.array([-0.45, 0.55, 0.70])
+SHADE = 0.45  # brightness of what turns away from the light
 _RIM, _RIM_SHADE = 0.08, 0.85  # a rim sets grains apart
 _DENSITY = 0.5  # pixels between points of a meniscus
 _DEPTH_OF_FILM = 0.5  # pixels by which a point may lie behind another one
@@ -37,10 +37,16 @@ def view_of(w: Wet) -> View:
     back = np.array([-math.sin(turn), math.cos(turn), 0.0])
     up = np.array([0.0, 0.0, math.cos(tilt)]) + math.sin(tilt) * back
     axes = np.array([right, up, np.cross(right, up)])
-    seen, radii = _inside(w) @ axes[:2].T, w.heap.radii[:, None]
+    seen, radii = inside_of(w) @ axes[:2].T, w.heap.radii[:, None]
     low, high = (seen - radii).min(axis=0), (seen + radii).max(axis=0)
     middle, size = 0.5 * (low + high), _MARGIN * (high - low)
     return View(axes, middle - 0.5 * size, size)
+
+
+def shape_of(view: View, pixels: int) -> tuple[int, int]:
+    """Columns and rows of an image with so many pixels along its longer side."""
+    columns, rows = (max(1, math.ceil(pixels * length / view.size.max())) for length in view.size)
+    return columns, rows
 
 
 def image_of(w: Wet, view: View, pixels: int, colours: tuple[Floats, Floats, Floats]) -> Floats:
@@ -63,15 +69,15 @@ def image_of(w: Wet, view: View, pixels: int, colours: tuple[Floats, Floats, Flo
         The first row is the lowest.
     """
     pixel = float(view.size.max()) / pixels
-    columns, rows = (max(1, math.ceil(length / pixel)) for length in view.size)
+    columns, rows = shape_of(view, pixels)
     depth = np.full((rows, columns), -np.inf)
     image = np.broadcast_to(colours[2], (rows, columns, 3)).copy()
-    centres = _inside(w)
+    centres = inside_of(w)
     places = (centres @ view.axes.T - np.append(view.low, 0.0)) / pixel
-    light = _LIGHT / np.linalg.norm(_LIGHT)
+    light = LIGHT / np.linalg.norm(LIGHT)
     for place, radius in zip(places, w.heap.radii / pixel, strict=True):
         compiled(_draw_ball)(depth, image, place, radius, colours[0], light)
-    ends, control, chosen = _meridians_of(w, centres)
+    ends, control, chosen = meridians_of(w, centres)
     meridians = np.stack([ends[0], control, ends[1]], axis=1) / pixel
     first = w.bridges.pairs[chosen, 0]
     axes = w.bridges.normal[chosen] @ view.axes.T
@@ -81,7 +87,7 @@ def image_of(w: Wet, view: View, pixels: int, colours: tuple[Floats, Floats, Flo
     return image
 
 
-def _meridians_of(w: Wet, centres: Floats) -> tuple[tuple[Floats, Floats], Floats, NDArray[np.intp]]:
+def meridians_of(w: Wet, centres: Floats) -> tuple[tuple[Floats, Floats], Floats, NDArray[np.intp]]:
     """Both ends of meridians, along the axis from the first pole and away from it, and the control point between.
 
     The meridian is a parabola that leaves both solids at their contact angles: to the eye it is the true one. Bridges
@@ -117,7 +123,7 @@ def _control_point(ends: tuple[Floats, Floats], lean: Floats) -> Floats:
     return np.where(good[:, None], control, 0.5 * (ends[0] + ends[1]))
 
 
-def _inside(w: Wet) -> Floats:
+def inside_of(w: Wet) -> Floats:
     """Centres inside the cell."""
     fractions = w.heap.positions @ np.linalg.inv(w.heap.box)
     return np.asarray(w.heap.positions - np.where(w.heap.periodic, np.floor(fractions), 0.0) @ w.heap.box)
@@ -126,7 +132,7 @@ def _inside(w: Wet) -> Floats:
 @kernel
 def _brightness(x: float, y: float, z: float, light: Floats) -> float:
     """Of a surface by its normal to the right, up and to the eye."""
-    return _SHADE + (1.0 - _SHADE) * max(0.0, x * light[0] + y * light[1] + z * light[2])
+    return SHADE + (1.0 - SHADE) * max(0.0, x * light[0] + y * light[1] + z * light[2])
 
 
 @kernel
