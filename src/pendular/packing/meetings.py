@@ -146,6 +146,8 @@ def _meeting_range(
                 if side_a != side_b:
                     cosine = -cosine
                 together = filling[a, side_a] + filling[b, side_b]
+                if 1.0 - 0.5 * together * together > cosine + _ROUNDING:  # less than its cosine, and sooner found
+                    continue
                 if together >= math.pi or math.cos(together) <= cosine + _ROUNDING:
                     count[grain] += 1
                     meets[a] = True

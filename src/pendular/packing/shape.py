@@ -64,6 +64,22 @@ def cap_at(force: float, curvature: float, radius: float, cosine: float, sine: f
 
 
 @kernel
+def caps_at(
+    force: float,
+    curvature: float,
+    radius1: float,
+    radius2: float,
+    cosines: tuple[float, float],
+    sines: tuple[float, float],
+) -> tuple[Cap, Cap]:
+    """Caps of both solids; those of equal ones are found once."""
+    first = cap_at(force, curvature, radius1, cosines[0], sines[0])
+    if radius2 == radius1 and cosines[1] == cosines[0]:
+        return first, first
+    return first, cap_at(force, curvature, radius2, cosines[1], sines[1])
+
+
+@kernel
 def plane_cap(area: float, cosine: float) -> Cap:
     """Disc that a bridge wets of a plane."""
     return Cap(0.0, math.sqrt(area / math.pi), area, 0.0, -area * cosine)
@@ -123,8 +139,7 @@ def potential_of(
 ) -> float:
     """Grand potential; in an overlap it goes on with the force of contact, so that this is its rate."""
     curvature, pull = suction / tension, force / tension
-    first = cap_at(0.5 * pull / math.pi, curvature, radius1, cosines[0], sines[0])
-    second = cap_at(0.5 * pull / math.pi, curvature, radius2, cosines[1], sines[1])
+    first, second = caps_at(0.5 * pull / math.pi, curvature, radius1, radius2, cosines, sines)
     n11, n33 = meniscus_of(max(gap, 0.0), curvature, pull, volume, first, second)
     wetted = cosines[0] * first.area + cosines[1] * second.area
     return tension * (2.0 * n11 + n33 - wetted + curvature * volume + pull * min(gap, 0.0))
@@ -150,8 +165,10 @@ def shape_range(
     for row in range(start, stop):
         i, j = pairs[row, 0], pairs[row, 1]
         curvature, pull = element(suctions, row) / tension, forces[row] / tension
-        first = cap_at(0.5 * pull / math.pi, curvature, radii[i], cosines[kind[i]], sines[kind[i]])
-        second = cap_at(0.5 * pull / math.pi, curvature, radii[j], cosines[kind[j]], sines[kind[j]])
+        first, second = caps_at(
+            0.5 * pull / math.pi, curvature, radii[i], radii[j],
+            (cosines[kind[i]], cosines[kind[j]]), (sines[kind[i]], sines[kind[j]]),
+        )  # fmt: skip
         n11, n33 = meniscus_of(max(gaps[row], 0.0), curvature, pull, volumes[row], first, second)
         out[row, AREA] = 2.0 * n11 + n33
         out[row, FILLING_1], out[row, FILLING_2] = first.filling, second.filling

@@ -29,6 +29,7 @@ __all__ = ["Shares", "fabric_of", "shares_of", "stress_sum"]
 Floats = NDArray[np.float64]
 
 _CHUNK = 65536
+_FEW = 8192  # rows that a cache holds
 
 
 class Shares(NamedTuple):
@@ -53,7 +54,10 @@ def fabric_of(normals: Floats) -> Floats:
 
 def _dyads(weights: Floats, normals: Floats) -> Floats:
     """Σ w n ⊗ n."""
-    total: Floats = (weights[:, None] * normals).T @ normals
+    total = np.zeros((3, 3))
+    for start in range(0, len(weights), _FEW):
+        part = normals[start : start + _FEW]
+        total += (weights[start : start + _FEW, None] * part).T @ part
     return 0.5 * (total + total.T)
 
 
