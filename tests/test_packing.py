@@ -509,6 +509,7 @@ def test_a_heap_without_pores_and_one_with_noise_are_told():
         pl.wet(full, 0.1, suction=1e3, liquid=UNIT)
     with pytest.warns(pl.PackingWarning, match="more than a bridge spans"):
         pl.wet(pl.Packing([(0, 0, 0), (1.95, 0, 0)], 1.0), 0.1, suction=1e2, liquid=UNIT)
+    pl.wet(pl.Packing([(0, 0, 0), (2 - 1e-12, 0, 0)], 1.0), 1.7, suction=1e2, liquid=UNIT)  # no bridge, and no noise
 
 
 def test_a_search_serves_narrower_ones():

@@ -94,7 +94,13 @@ def test_the_command_tells_a_state(run):
     assert (status, errors) == (0, "")
     heap = pl.lattice_packing("face_centred_cubic", 4, 50e-6)
     w = pl.wet(heap, np.deg2rad(20), suction=20e3, liquid=WATER)
-    for text in ("256 grains of radius 50 µm", f"{w.porosity:.4f}", f"{100 * w.saturation:.4g} %", f"{w.chi:.4g}"):
+    assert f"{pl.pendular_limit(heap, np.deg2rad(20), liquid=WATER) / 1e3:.4g} kPa" in output
+    for text in (
+        "256 grains of radius 50 µm, solid fraction 0.7405",
+        f"{w.porosity:.4f}",
+        f"{100 * w.saturation:.4g} %",
+        f"{w.chi:.4g}",
+    ):
         assert text in output
     assert "cohesion" in output
     assert "no two bridges meet" in output
@@ -106,6 +112,8 @@ def test_the_command_gives_numbers_to_machines(run):
     answer = json.loads(output)
     assert answer["saturation"] == pytest.approx(1e-3, rel=1e-12)
     assert answer["mass_ratio"] is None
+    heap = pl.lattice_packing("simple_cubic", 4, 50e-6)
+    assert answer["pendular_limit"] == pytest.approx(pl.pendular_limit(heap, 0.0, liquid=WATER), rel=1e-8)
     status, output, _ = run("--made", "sc", "--suction", "20kPa", "--csv")
     rows = output.splitlines()
     assert len(rows) == 1 + 3 * 64
@@ -135,10 +143,19 @@ def test_one_command_on_a_dump_gives_curves_and_a_picture(run, tmp_path, capsys)
     assert first["wetting"] < first["drying"]
 
 
+def test_the_command_doubts_large_grains_of_a_file_without_a_unit(run, tmp_path):
+    file = tmp_path / "grains.txt"
+    file.write_text("0 0 0 0.05\n0 0 0.1 0.05\n")
+    status, _, errors = run(str(file), "--suction", "20Pa")
+    assert status == 0
+    assert errors == ("pendular: warning: unit: grains have a radius of 50 mm; if not, say what the file's 1 means\n")
+    assert run(str(file), "--suction", "20kPa", "--unit", "mm")[2] == ""
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--made", "diamond"], "made: 'diamond' is not one of random, sc, bcc, fcc, hcp"),
+        (["--made", "diamond"], "made: 'diamond' is not one of loose, close, sc, bcc, fcc, hcp"),
         (["--made", "sc", "--suction", "2"], "suction: '2' has no unit; write it like 2kPa"),
         (["--made", "sc", "--suction", "2kPa", "--humidity", "90%"], "control: suction and humidity given"),
         (

@@ -16,7 +16,7 @@ from .meetings import mark_meetings
 from .neighbours import Neighbours, arms_of
 from .setting import Setting, setting_of
 
-__all__ = ["limit_between", "pendular_limit"]
+__all__ = ["limit_between", "limit_of", "pendular_limit"]
 
 Bools = NDArray[np.bool_]
 
@@ -60,17 +60,22 @@ def pendular_limit(
     """
     one_of("path", path, ("drying", "wetting"))
     setting = setting_of(heap, contact_angle, liquid, formation_distance, condensation, method)
-    unit = liquid.surface_tension / float(heap.radii.max())
-    high = 16.0 * liquid.surface_tension / float(heap.radii.min())
-    while _meeting(setting, pairs_at(setting, "suction", high), high, path == "drying").any():
+    return limit_of(setting, path == "drying")
+
+
+def limit_of(setting: Setting, is_drying: bool) -> float:
+    """Limit on a main branch."""
+    tension, radii = setting.liquid.surface_tension, setting.heap.radii
+    least = LEAST_REDUCED_SUCTION * tension / float(radii.max())
+    high = 16.0 * tension / float(radii.min())
+    while _meeting(setting, pairs_at(setting, "suction", high), high, is_drying).any():
         high *= _STEP**4
     low = high
-    while True:
-        low = max(low / _STEP, LEAST_REDUCED_SUCTION * unit)
-        if _meeting(setting, pairs_at(setting, "suction", low), low, path == "drying").any():
-            return limit_between(setting, low, low * _STEP, path == "drying")
-        if low <= LEAST_REDUCED_SUCTION * unit:
-            return 0.0
+    while low > least:
+        low = max(low / _STEP, least)
+        if _meeting(setting, pairs_at(setting, "suction", low), low, is_drying).any():
+            return limit_between(setting, low, low * _STEP, is_drying)
+    return 0.0
 
 
 def limit_between(setting: Setting, low: float, high: float, is_drying: bool) -> float:

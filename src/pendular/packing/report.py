@@ -32,12 +32,12 @@ _NAMES = (
 )
 
 
-def state_table(w: Wet, with_stress: bool, friction_angle: float | None) -> RenderableType:
-    """One state, for people."""
+def state_table(w: Wet, limit: float, with_stress: bool, friction_angle: float | None) -> RenderableType:
+    """One state, for people; ``limit`` is the suction below which bridges meet."""
     from rich.table import Table
 
     table = Table.grid(padding=(0, 3))
-    for name, value, meaning in _state_rows(w, friction_angle):
+    for name, value, meaning in _state_rows(w, limit, friction_angle):
         table.add_row(name, value, meaning)
     if with_stress:
         table.add_row("")
@@ -45,7 +45,7 @@ def state_table(w: Wet, with_stress: bool, friction_angle: float | None) -> Rend
     return table
 
 
-def _state_rows(w: Wet, friction_angle: float | None) -> list[tuple[str, str, str]]:
+def _state_rows(w: Wet, limit: float, friction_angle: float | None) -> list[tuple[str, str, str]]:
     meetings = w.meetings
     rows = [
         ("suction", show(w.suction, "Pa", 4), "common to all bridges"),
@@ -65,6 +65,8 @@ def _state_rows(w: Wet, friction_angle: float | None) -> list[tuple[str, str, st
         rows.append(("cohesion", show(w.cohesion(friction_angle), "Pa", 4), "suction stress x tan φ"))
     if w.unheld > 0.0:
         rows.append(("unheld", show(w.unheld, "m^3", 4), "liquid that no bridge takes"))
+    if limit > 0.0:
+        rows.append(("pendular limit", show(limit, "Pa", 4), "suction below which bridges meet"))
     if w.is_pendular:
         rows.append(("pendular", "yes", "no two bridges meet"))
     else:
@@ -82,14 +84,15 @@ def _add_stress(table: Any, w: Wet) -> None:
     """Add rows of the stress and its shares."""
     shares = w.stress_shares
     parts = {"stress": w.stress, "  liquid": shares.liquid, "  menisci": shares.surface, "  grains": shares.contact}
+    rounding = 1e-12 * float(np.abs(w.stress).max())
     for name, tensor in parts.items():
         for k in range(3):
-            numbers = "  ".join(f"{value:12.5g}" for value in tensor[k])
+            numbers = "  ".join(f"{value if abs(value) > rounding else 0.0:12.5g}" for value in tensor[k])
             table.add_row(name if k == 0 else "", numbers, "Pa" if k == 0 else "")
 
 
-def state_json(w: Wet, friction_angle: float | None) -> str:
-    """One state, for machines."""
+def state_json(w: Wet, limit: float, friction_angle: float | None) -> str:
+    """One state, for machines; ``limit`` is the suction below which bridges meet."""
     shares = w.stress_shares
     answer: dict[str, Any] = {
         "suction": w.suction,
@@ -104,6 +107,7 @@ def state_json(w: Wet, friction_angle: float | None) -> str:
         "fabric": w.fabric,
         "meetings": w.meetings._asdict(),
         "book": w.book._asdict(),
+        "pendular_limit": limit,
         "is_pendular": w.is_pendular,
     }
     if friction_angle is not None:

@@ -33,9 +33,14 @@ class Setting(NamedTuple):
     method: str
     radii: Floats  # of grains, then of walls, [m]
 
+    @property
+    def rounding(self) -> float:
+        """Of a gap between grains that touch, [m]."""
+        return _TOUCHING * float(self.heap.radii.min())
+
     def touching(self, gap: Floats) -> NDArray[np.bool_]:
         """Whether a gap is small enough for a bridge to form at once."""
-        return np.asarray(gap <= self.formation_distance + _TOUCHING * float(self.heap.radii.min()))
+        return np.asarray(gap <= self.formation_distance + self.rounding)
 
 
 def setting_of(

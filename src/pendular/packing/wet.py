@@ -277,7 +277,7 @@ def _positive(name: str, value: object, unit: str) -> float:
 
 def _tell_noise(setting: Setting, pairs: Neighbours, suction: float) -> None:
     """Warn where grains overlap by more than a bridge spans."""
-    overlap = pairs.gap < 0.0
+    overlap = pairs.gap < -setting.rounding
     if not overlap.any():
         return
     deepest = int(np.argmin(pairs.gap))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import typer
 
 from ...ground.units import read, read_fraction, show
+from ...ground.warn import warn
 from ..options import describe_liquid, read_contact_angle, read_form, read_liquid
 from ._app import app, compiling_shown, print_page, save_picture, warnings_in_one_line
 
@@ -19,8 +20,9 @@ __all__ = ["packing"]
 
 _AMOUNTS = ("saturation", "water_content", "mass_ratio")
 _LATTICES = {"sc": "simple_cubic", "bcc": "body_centred_cubic", "fcc": "face_centred_cubic", "hcp": "hexagonal"}
-_MADE = ("random", *_LATTICES)
-_FRICTION = 0.5  # of a made random heap
+_RANDOM = {"loose": 0.5, "close": 0.0}  # friction while it is made
+_MADE = (*_RANDOM, *_LATTICES)
+_LARGE = 5e-3  # radius from which gravity outdoes bridges, [m]
 _USUAL_RADIUS = "50um"
 _USUAL_SUCTION = 10.0  # ΔpR/γ
 _USUAL_RANGE = (0.5, 500.0)
@@ -42,7 +44,9 @@ def packing(
     ] = None,
     unit: Annotated[str | None, _text("Length that the file's 1 means: mm.", "UNIT")] = None,
     radius: Annotated[str | None, _text("Of grains that a file has none for, or of made ones: 50um.", "LENGTH")] = None,
-    made: Annotated[str, _text("Grains without a file: random, sc, bcc, fcc or hcp.", "KIND")] = "random",
+    made: Annotated[
+        str, _text("Grains without a file: loose or close (random), sc, bcc, fcc or hcp.", "KIND")
+    ] = "loose",
     count: Annotated[int, typer.Option(help="Grains of a made random heap.")] = 500,
     contact_angle: Annotated[str, _text("Contact angle: 20 or 20deg, 0.35rad.", "ANGLE")] = "0",
     retention: Annotated[
@@ -111,12 +115,18 @@ def packing(
 
 def _heap(file: Path | None, unit: str | None, radius: str | None, made: str, count: int) -> "tuple[Packing, str]":
     """Grains of a file, or made ones, and what they are."""
+    import numpy as np
+
+    from ...packing.heap import PackingWarning
+
     if file is not None:
         from ...codes.grains.reading import read_packing
 
         size = None if radius is None else read("radius", radius, "m", _USUAL_RADIUS)
         heap = read_packing(file, unit=unit, radius=size)
-        return heap, f"{file.name}, {heap.count} grains of {_range(heap)}"
+        if unit is None and float(np.median(heap.radii)) > _LARGE:
+            warn(f"unit: grains have a radius of {_range(heap)}; if not, say what the file's 1 means", PackingWarning)
+        return heap, f"{file.name}, {heap.count} grains of radius {_range(heap)}"
     if unit is not None:
         raise ValueError("unit: has no effect without a file")
     size = read("radius", radius or _USUAL_RADIUS, "m", _USUAL_RADIUS)
@@ -124,20 +134,19 @@ def _heap(file: Path | None, unit: str | None, radius: str | None, made: str, co
         from ...packing.lattice import lattice_packing
 
         heap = lattice_packing(_LATTICES[made], 4, size)
-    elif made == "random":
+    elif made in _RANDOM:
         from ...packing.random_packing import random_packing
 
-        heap = random_packing(count, size, friction=_FRICTION)
+        heap = random_packing(count, size, friction=_RANDOM[made])
     else:
         raise ValueError(f"made: {made!r} is not one of {', '.join(_MADE)}")
-    return heap, f"Made heap ({made}), {heap.count} grains of {_range(heap)}"
+    solid = float(np.sum(4.0 / 3.0 * math.pi * heap.radii**3)) / heap.volume
+    return heap, f"Made heap ({made}), {heap.count} grains of radius {_range(heap)}, solid fraction {solid:.4f}"
 
 
 def _range(heap: "Packing") -> str:
     low, high = float(heap.radii.min()), float(heap.radii.max())
-    return (
-        f"radius {show(low, 'm', 4)}" if high <= low * (1 + 1e-12) else f"{show(low, 'm', 3)} to {show(high, 'm', 3)}"
-    )
+    return show(low, "m", 4) if high <= low * (1 + 1e-12) else f"{show(low, 'm', 3)} to {show(high, 'm', 3)}"
 
 
 def _usual_suction(heap: "Packing", liquid: "Liquid") -> float:
@@ -202,14 +211,18 @@ def _tell_state(
     friction_angle: float | None,
 ) -> None:
     """Show one state of a heap."""
+    from ...packing.limit import limit_of
     from ...packing.pictures import draw_heap
     from ...packing.report import state_csv, state_json, state_table
 
     if plot is not None:
         save_picture(draw_heap(w, title, describe_liquid(liquid)), plot)
-    if form == "json":
-        typer.echo(state_json(w, friction_angle))
-    elif form == "csv":
+    if form == "csv":
         typer.echo(state_csv(w), nl=False)
+        return
+    limit = limit_of(w._setting, path == "drying")
+    if form == "json":
+        typer.echo(state_json(w, limit, friction_angle))
     else:
-        print_page(title, f"{describe_liquid(liquid)}  ·  {path}", state_table(w, stress, friction_angle), plot)
+        page = state_table(w, limit, stress, friction_angle)
+        print_page(title, f"{describe_liquid(liquid)}  ·  {path}", page, plot)
