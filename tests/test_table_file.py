@@ -6,9 +6,11 @@ import shutil
 import struct
 import subprocess
 import threading
+import warnings
 import zlib
 from contextlib import suppress
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -17,7 +19,7 @@ from benchmarks.c_header import CPP, WARNINGS, C, contacts, has_compiler
 import pendular as pl
 from pendular.codes.c_header import table_header
 from pendular.front.cli import main
-from pendular.table import binary, kernels
+from pendular.table import binary, kernels, storage
 
 SEED = 20
 HERE = Path(__file__).parent
@@ -189,6 +191,14 @@ def test_each_truncation_and_each_change_is_refused(content):
         damaged[place] ^= 0x10
 
 
+def assert_all_cells_are_there(cuts, arrays):
+    assert (cuts >= 0).all()
+    size_cells = cuts[:, kernels.SIZE_CELLS] + cuts[:, kernels.U_COUNT]
+    cells = cuts[:, kernels.CELLS] + cuts[:, kernels.U_COUNT] * cuts[:, kernels.Q_COUNT]
+    assert size_cells.max() * 64 == arrays.rupture.size
+    assert cells.max() * 160 == arrays.force.size == arrays.liquid.size
+
+
 def test_wrong_headers_under_a_right_checksum_are_refused_or_held(content, suction_table):
     """What is opened has all its cells: a table without them would read memory that is not its own."""
     random = np.random.default_rng(SEED)
@@ -203,15 +213,107 @@ def test_wrong_headers_under_a_right_checksum_are_refused_or_held(content, sucti
         if not arrays:
             continue
         opened += 1
-        cuts = arrays["cuts"]
-        assert (cuts >= 0).all()
-        ends = (
-            cuts[:, kernels.SIZE_CELLS] + cuts[:, kernels.U_COUNT],
-            cuts[:, kernels.CELLS] + (cuts[:, kernels.U_COUNT] * cuts[:, kernels.Q_COUNT]),
-        )
-        assert ends[0].max() * 64 == arrays["rupture"].size
-        assert ends[1].max() * 160 == arrays["force"].size == arrays["liquid"].size
+        assert_all_cells_are_there(arrays["cuts"], SimpleNamespace(**arrays))
     assert 0 < opened < 1500
+
+
+# Archives of NumPy --------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def archive(suction_table, tmp_path):
+    path = tmp_path / "w.npz"
+    suction_table.save(path)
+    return path
+
+
+def loaded(path):
+    """A table, if the file is one: other damage than a reason why not fails the test."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of NumPy, that a header is not what it wrote
+        with suppress(ValueError):
+            return pl.load_table(path)
+
+
+def test_each_truncation_and_each_change_of_an_archive_is_refused_or_harmless(archive, suction_table):
+    """The archive holds bytes that no reader looks at, as the time of its parts."""
+    content = archive.read_bytes()
+    random = np.random.default_rng(SEED)
+    print(f"seed {SEED}")
+    for size in random.choice(len(content), 150, replace=False):
+        archive.write_bytes(content[:size])
+        assert loaded(archive) is None
+    names = [place + i for place in places_of(content, b"PK") for i in range(60) if place + i < len(content)]
+    for place in (*names, *random.choice(len(content), 400)):
+        archive.write_bytes(changed(content, int(place), bytes([content[place] ^ 0x10])))
+        found = loaded(archive)
+        if found is not None:
+            assert all(np.array_equal(mine, other) for mine, other in zip(found.grid, suction_table.grid, strict=True))
+            assert found.bound == suction_table.bound
+
+
+def places_of(content: bytes, mark: bytes):
+    place = content.find(mark)
+    while place >= 0:
+        yield place
+        place = content.find(mark, place + 1)
+
+
+def resealed(path, change):
+    """Write a file with a change of its description and arrays under a right checksum."""
+    found, arrays = storage.load(path)
+    description = {key: value for key, value in found.items() if key not in ("format", "arrays")}
+    change(description, arrays)
+    storage.save(path, description, arrays)
+
+
+ARCHIVE_FAULTS = {
+    "control": (lambda d, a: d.update(control="wetness"), "has a control that is neither suction nor volume"),
+    "angle": (lambda d, a: d.update(contact_angle=[4.0, 0.1]), "has a number in its header that is out of range"),
+    "nan": (lambda d, a: d.update(range=[math.nan] * 4), "has a number in its header that is out of range"),
+    "text": (lambda d, a: d.update(tolerance="much"), "is not a table, or damaged"),
+    "missing": (lambda d, a: d.pop("range"), "is not a table, or damaged"),
+    "part": (lambda d, a: d.update(cut=[52.5, *d["cut"][1:]]), "has a number in its header that is out of range"),
+    "huge": (lambda d, a: d.update(cut=[10**30, *d["cut"][1:]]), "is not a table, or damaged"),
+    "first": (lambda d, a: d.update(cut=[d["cut"][0], 0, d["cut"][2]]), "has cells that do not cover its range"),
+    "rows": (lambda d, a: a.update(cuts=a["cuts"][1:]), "has arrays that are not laid out as it says"),
+    "kind": (lambda d, a: a.update(cuts=a["cuts"].astype(float)), "has arrays that are not laid out as it says"),
+    "cell": (lambda d, a: a["cuts"].__setitem__((0, kernels.CELLS), 10**9), "has cells that do not cover its range"),
+    "short": (lambda d, a: a.update(force=a["force"][:-160]), "has arrays that are not laid out as it says"),
+    "both": (lambda d, a: a.update(force=a["force"][160:], liquid=a["liquid"][160:]), "has cells that do not cover"),
+    "infinite": (lambda d, a: a["force"].__setitem__(5, math.inf), "has a number that is not finite"),
+}
+
+
+@pytest.mark.parametrize("fault", ARCHIVE_FAULTS)
+def test_a_fault_of_an_archive_is_named(archive, fault):
+    change, reason = ARCHIVE_FAULTS[fault]
+    resealed(archive, change)
+    with pytest.raises(ValueError, match=rf"^path: '.*w\.npz' {reason}[^\n]*$"):
+        pl.load_table(archive)
+
+
+def test_wrong_cuts_of_an_archive_under_a_right_checksum_are_refused_or_held(archive):
+    random = np.random.default_rng(SEED)
+    print(f"seed {SEED}")
+    content, opened = archive.read_bytes(), 0
+
+    def change(description, arrays):
+        if random.random() < 0.5:
+            cuts = arrays["cuts"]
+            cuts[random.integers(len(cuts)), random.integers(8)] = random.choice([0, 1, 2, 2**31, -1, 1 << 62])
+        else:
+            lines = arrays["lines"]
+            lines[random.integers(len(lines)), random.integers(6)] *= random.choice([0.0, -1.0, 1.5, 1e300])
+
+    for _ in range(300):
+        archive.write_bytes(content)
+        resealed(archive, change)
+        table = loaded(archive)
+        if table is not None:
+            opened += 1
+            assert_all_cells_are_there(table.grid.cuts, table.grid)
+    assert 0 < opened < 300
 
 
 FAULTS = {
@@ -517,6 +619,7 @@ def test_the_command_writes_a_table_of_constant_volume(run, tmp_path):
         (["--out", "w.bridges", "--reduced-suction", "1", "2", "--reduced-volume", "1", "2"], "reduced-volume: given"),
         (["--out", "w.bridges", "--tolerance", "1"], "tolerance: 1.0 is not in"),
         (["--out", "w.bridges", "--contact-angle2", "181"], "contact-angle2: "),
+        (["--out", "w.bridges", "--contact-angle2", "160"], "contact_angle: 20 and 160 deg are not below 180 deg"),
     ],
 )
 def test_bad_options_are_refused_in_one_line(run, options, message, tmp_path, monkeypatch):

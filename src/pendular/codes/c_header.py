@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 from .. import __version__
 from ..table.binary import CHANNELS
 from ..table.kernels import CELLS, Q_COUNT, SIZE_CELLS, U_COUNT, Grid
+from ..table.measure import SAFETY
 from ..table.polynomial import CELL, LANES, RUPTURE_CELL
-from ..table.task import holds_none
+from ..table.task import refuse_dry
 
 if TYPE_CHECKING:
     from ..table import Table
@@ -99,12 +100,8 @@ def c_header(table: "Table", *, prefix: str = "pendular_") -> str:
         raise ValueError(f"prefix: {prefix!r} does not begin a name in C; write it like pendular_")
     if prefix == _TAKEN:
         raise ValueError(f"prefix: {prefix!r} begins names of the header itself; choose another one")
-    if table.control == "suction" and holds_none(table.contact_angle):
-        first, second = np.rad2deg(table.contact_angle)
-        raise ValueError(
-            f"contact_angle: {first:.10g} and {second:.10g} deg are not below 180 deg together; "
-            "no suction holds a bridge beyond"
-        )
+    if table.control == "suction":
+        refuse_dry(table.contact_angle)
     template = Template((files(__package__) / "header.h.in").read_text(encoding="utf-8"))
     words = _CONTROLS[table.control]._asdict() | _about(table) | _numbers(table.grid)
     text = template.substitute(words, prefix=prefix, guard_stem=prefix.upper().rstrip("_"))
@@ -206,5 +203,5 @@ def bound_lines(table: "Table") -> list[str]:
     return [
         f"Bounds of error  force {bound.force:.1e} of the largest, mostly that at contact (asked {table.tolerance:g}),",
         f"                 rupture distance {bound.rupture:.1e} of itself, {liquid} {bound.liquid:.1e} {unit};",
-        f"                 half as much again as the worst of {bound.bridges} exact bridges, sought in all cells",
+        f"                 {SAFETY:g} times the worst of {bound.bridges} exact bridges, sought in all cells",
     ]

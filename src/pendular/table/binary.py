@@ -10,15 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..ground.files import in_one_line, whole
-from .kernels import CELLS, Q0, Q1, Q_COUNT, Q_FIRST, Q_SHIFT, SIZE_CELLS, U0, U1, U_COUNT, U_FIRST, U_SHIFT, X1
 from .polynomial import CELL, RUPTURE_CELL
+from .sound import CUT, LINE, MOST_ROWS, refuse_unsound, require
 
 __all__ = ["CHANNELS", "MAGIC", "SUFFIX", "Channel", "is_binary", "load", "packed", "save", "unpacked"]
 
 Description = dict[str, Any]
 Arrays = dict[str, NDArray[Any]]
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
 
 SUFFIX = ".bridges"
 MAGIC = b"\x89BRIDGE\n"
@@ -40,11 +38,8 @@ _CHANNEL = np.dtype(
 )  # fmt: skip
 _CHECKSUM = 4  # [bytes]
 _ALIGNMENT = 64  # of the coefficients, [bytes]
-_LINE, _CUT = 6, 8  # numbers of a row
 _CONTROLS = ("suction", "volume")
-_MOST_CHANNELS, _MOST_ROWS, _MOST_CELLS = 16, 1 << 24, (1 << 31) - 1
-_LEAST_SHIFT, _MOST_SHIFT, _EXPONENTS = 33, 52, 2047
-_RATIO_LIMIT, _ANGLE_LIMIT = 1.001, 3.1415926535898  # a little above 1 and π
+_MOST_CHANNELS, _MOST_CELLS = 16, (1 << 31) - 1
 
 
 class Channel(NamedTuple):
@@ -142,27 +137,26 @@ def unpacked(content: bytes) -> tuple[Description, Arrays]:
     _refuse_wrong_header(header)
     control = _CONTROLS[header["control"]]
     start = _HEADER.itemsize + int(header["channels"]) * _CHANNEL.itemsize
-    _require(start < len(content), _SIZE)
+    require(start < len(content), _SIZE)
     channels = np.frombuffer(content, _CHANNEL, header["channels"], _HEADER.itemsize)
     _refuse_wrong_channels(channels, _names(control))
     rows, size_cells, cells = (int(header[name]) for name in ("rows", "size_cells", "cells"))
     rows *= int(header["sides"])
-    cuts_start = start + rows * _LINE * 8
-    end = cuts_start + rows * _CUT * 4
+    cuts_start = start + rows * LINE * 8
+    end = cuts_start + rows * CUT * 4
     start_of = [end + -end % _ALIGNMENT]
     for channel in channels:
         start_of.append(start_of[-1] + 8 * (cells * CELL if channel["is_of_bridge"] else size_cells * RUPTURE_CELL))
-    _require(start_of[-1] + _CHECKSUM == len(content), _SIZE)
-    lines = np.frombuffer(content, "<f8", rows * _LINE, start).reshape(rows, _LINE)
-    cuts = np.frombuffer(content, "<i4", rows * _CUT, cuts_start).reshape(rows, _CUT)
+    require(start_of[-1] + _CHECKSUM == len(content), _SIZE)
+    lines = np.frombuffer(content, "<f8", rows * LINE, start).reshape(rows, LINE)
+    cuts = np.frombuffer(content, "<i4", rows * CUT, cuts_start).reshape(rows, CUT)
     numbers = np.frombuffer(content, "<f8", (start_of[-1] - start_of[0]) // 8, start_of[0])
-    _require(np.isfinite(lines).all() and np.isfinite(numbers).all(), "has a number that is not finite")
-    _refuse_wrong_cuts(header, lines.astype(np.float64), cuts.astype(np.int64))
+    require(np.isfinite(numbers).all(), "has a number that is not finite")
     coefficients = np.split(numbers, [(at - start_of[0]) // 8 for at in start_of[1:4]])
     arrays = {"lines": lines, "cuts": cuts} | dict(zip(("rupture", "force", "liquid"), coefficients[:3], strict=True))
     kinds = {name: np.int64 if name == "cuts" else np.float64 for name in arrays}
     rupture, force, liquid = channels["bound"][:3].tolist()
-    return {
+    description = {
         "contact_angle": header["contact_angle"].tolist(),
         "control": control,
         "reduced": header["reduced"].tolist(),
@@ -172,27 +166,25 @@ def unpacked(content: bytes) -> tuple[Description, Arrays]:
         "version": header["writer"].decode(),
         "cut": [int(header[name]) for name in ("shift", "first", "rows")],
         "range": header["range"].tolist(),
-    }, {name: array.astype(kinds[name]) for name, array in arrays.items()}
+    }
+    arrays = {name: array.astype(kinds[name]) for name, array in arrays.items()}
+    refuse_unsound(description, arrays)
+    return description, arrays
 
 
 _SIZE = "is shorter or longer than it says"
 
 
-def _require(is_so: object, fault: str) -> None:
-    if not is_so:
-        raise ValueError(fault)
-
-
 def _refuse_damaged(content: bytes) -> None:
     """Magic, order of bytes, version, size and checksum."""
-    _require(content.startswith(MAGIC), "is not a table of bridges")
-    _require(len(content) >= _HEADER.itemsize + _CHECKSUM, _SIZE)
+    require(content.startswith(MAGIC), "is not a table of bridges")
+    require(len(content) >= _HEADER.itemsize + _CHECKSUM, _SIZE)
     header = np.frombuffer(content, _HEADER, 1)[0]
-    _require(header["byte_order"] == _BYTE_ORDER, "has another order of bytes than this format")
-    _require(header["version"] == _VERSION, f"has version {header['version']} of the format, known is {_VERSION}")
-    _require(header["size"] == len(content), _SIZE)
+    require(header["byte_order"] == _BYTE_ORDER, "has another order of bytes than this format")
+    require(header["version"] == _VERSION, f"has version {header['version']} of the format, known is {_VERSION}")
+    require(header["size"] == len(content), _SIZE)
     checksum = int.from_bytes(content[-_CHECKSUM:], "little")
-    _require(zlib.crc32(memoryview(content)[:-_CHECKSUM]) == checksum, "is damaged: its checksum does not agree")
+    require(zlib.crc32(memoryview(content)[:-_CHECKSUM]) == checksum, "is damaged: its checksum does not agree")
 
 
 def _is_text(text: bytes, room: int) -> bool:
@@ -201,20 +193,14 @@ def _is_text(text: bytes, room: int) -> bool:
 
 
 def _refuse_wrong_header(header: np.void) -> None:
-    theta, (low, high), ratio = header["contact_angle"], header["reduced"], header["radius_ratio"]
-    least, most, least_ratio, largest_ratio = header["range"]
-    _require(
+    """What the layout of the file depends on."""
+    theta = header["contact_angle"]
+    require(
         header["control"] < len(_CONTROLS)
         and header["sides"] == (1 if theta[0] == theta[1] else 2)
-        and 1 <= header["rows"] <= _MOST_ROWS
+        and 1 <= header["rows"] <= MOST_ROWS
         and len(_names("suction")) <= header["channels"] <= _MOST_CHANNELS
         and max(header["size_cells"], header["cells"]) <= _MOST_CELLS
-        and np.all((theta >= 0.0) & (theta < _ANGLE_LIMIT))
-        and 0.0 < low <= high < math.inf
-        and 1.0 <= ratio[0] <= ratio[1]
-        and 0.0 < least <= most < math.inf
-        and 0.0 <= least_ratio <= largest_ratio < _RATIO_LIMIT
-        and 0.0 < header["tolerance"] < 1.0
         and _is_text(header["writer"], _HEADER["writer"].itemsize),
         "has a number in its header that is out of range",
     )
@@ -233,47 +219,4 @@ def _refuse_wrong_channels(channels: NDArray[np.void], names: tuple[str, str, st
         known = CHANNELS[name]
         found = (channel["factor"], *(int(channel[field]) for field in Channel._fields[3:]))
         is_described = is_described and channel["name"] == name.encode() and found == known[2:]
-    _require(is_described, "has a channel that is not described as it has to be")
-
-
-def _cell(w: Floats, shift: Integers, first: Integers) -> Integers:
-    """Cell of positive numbers, -1 of others."""
-    return np.where(w > 0.0, (w.view(np.int64) >> shift) - first, -1)
-
-
-def _are_cuts(shift: Integers, first: Integers, count: Integers) -> np.bool_:
-    """Whether bits from first on, shifted, are ends of so many cells, all of them finite and positive numbers."""
-    is_cut = (shift >= _LEAST_SHIFT) & (shift <= _MOST_SHIFT) & (first >= 0) & (count >= 1)
-    octaves = _EXPONENTS << (_MOST_SHIFT - np.clip(shift, _LEAST_SHIFT, _MOST_SHIFT))
-    return np.all(is_cut & (first + count < octaves))
-
-
-def _refuse_wrong_cuts(header: np.void, lines: Floats, cuts: Integers) -> None:
-    """Each row shares the cells of the one before, or begins where that ends, and covers the sizes and q from 0 to 1.
-
-    Compiled kernels rely on it, as they do not look whether a cell is there.
-    """
-    shift, first, rows = (np.array([header[name]], np.int64) for name in ("shift", "first", "rows"))
-    parts = [cuts[:, [U_SHIFT, U_FIRST, U_COUNT]].T, cuts[:, [Q_SHIFT, Q_FIRST, Q_COUNT]].T]
-    is_right = _are_cuts(shift, first, rows) and all(_are_cuts(*part) for part in parts)
-    _require(is_right, _CUTS)
-    control = _cell(header["range"][:2].astype(np.float64), shift, first)
-    s = (1.0 - header["range"][2:]) / (1.0 + header["range"][2:])
-    sizes = s * s if header["sides"] == 1 else s
-    w_sizes = lines[:, U0, None] + lines[:, U1, None] * sizes
-    w_q = lines[:, Q0, None] + lines[:, Q1, None] * np.array([0.0, 1.0])
-    is_right = np.all((control >= 0) & (control < rows))
-    for w, (w_shift, w_first, count) in zip((w_sizes, w_q), parts, strict=True):
-        cell = _cell(w, w_shift[:, None], w_first[:, None])
-        is_right &= np.all((cell >= 0) & (cell < count[:, None]))
-    is_right &= np.all((lines[:, Q1] != 0.0) & (lines[:, X1] >= 0.0))
-    is_shared = np.concatenate([[False], (cuts[1:] == cuts[:-1]).all(axis=1)])
-    own = cuts[~is_shared]
-    counts = np.column_stack([own[:, U_COUNT], own[:, U_COUNT] * own[:, Q_COUNT]])
-    starts = np.concatenate([[[0, 0]], np.cumsum(counts, axis=0)])
-    is_right &= np.array_equal(own[:, [SIZE_CELLS, CELLS]], starts[:-1])
-    is_right &= np.array_equal(starts[-1], [header["size_cells"], header["cells"]])
-    _require(is_right, _CUTS)
-
-
-_CUTS = "has cells that do not cover its range one after another"
+    require(is_described, "has a channel that is not described as it has to be")

@@ -54,7 +54,7 @@ _COLUMNS = [State._fields.index(name) for name in ("force", "volume", "curvature
 
 
 class Bound(NamedTuple):
-    """Largest errors that a search found, and half as much again."""
+    """Largest errors that a search found, times ``SAFETY``."""
 
     force: float  # over the largest force of the bridge, mostly that at contact; up to 1 - D/D_c = 4e-6
     rupture: float  # of the rupture distance, relative

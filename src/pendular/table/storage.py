@@ -14,13 +14,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..ground.files import in_one_line, whole
+from .sound import Unsound, refuse_unsound, require
 
 __all__ = ["load", "save"]
 
 _FORMAT = 2
 _DESCRIPTION = "description"
+_CONTROLS = ("suction", "volume")
 # What reading an archive with wrong bytes raises; RuntimeError of those that name an encryption or a compression.
-_DAMAGES = (KeyError, ValueError, TypeError, EOFError, RuntimeError, zipfile.BadZipFile, zlib.error, TokenError)
+_DAMAGES = (
+    KeyError, ValueError, TypeError, AttributeError, OverflowError, EOFError, MemoryError, RuntimeError,
+    zipfile.BadZipFile, zlib.error, TokenError,
+)  # fmt: skip
 
 
 def _shuffled(array: NDArray[Any]) -> NDArray[np.uint8]:
@@ -50,21 +55,25 @@ def save(path: Path, description: Mapping[str, Any], arrays: Mapping[str, NDArra
         np.savez_compressed(file, **{_DESCRIPTION: np.array(json.dumps(stamp))}, **packed)  # type: ignore[arg-type]
 
 
+def _unpacked(content: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+    with np.load(io.BytesIO(content), allow_pickle=False) as packed:
+        stamp = json.loads(str(packed[_DESCRIPTION]))
+        description = json.loads(stamp["text"])
+        arrays = {name: _unshuffled(packed[name], kind, shape) for name, (kind, shape) in description["arrays"].items()}
+    require(description["format"] == _FORMAT, f"has format {description['format']}, known is {_FORMAT}")
+    require(_checksum(stamp["text"], arrays) == stamp["sha256"], "is damaged: its checksum does not agree")
+    require(description["control"] in _CONTROLS, "has a control that is neither suction nor volume")
+    refuse_unsound(description, arrays)
+    return description, arrays
+
+
 def load(path: Path) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
-    """Read a file back, and refuse it unless it is whole."""
+    """Read a file back, and refuse it unless it is whole, and holds a table."""
+    with in_one_line("path", path, "read"):
+        content = path.read_bytes()
     try:
-        with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as packed:
-            stamp = json.loads(str(packed[_DESCRIPTION]))
-            description = json.loads(stamp["text"])
-            arrays = {
-                name: _unshuffled(packed[name], kind, shape) for name, (kind, shape) in description["arrays"].items()
-            }
-    except OSError as error:
-        raise ValueError(f"path: '{path}' cannot be read: {error.strerror or error}") from error
+        return _unpacked(content)
+    except Unsound as fault:
+        raise ValueError(f"path: '{path}' {fault}") from fault
     except _DAMAGES as error:
         raise ValueError(f"path: '{path}' is not a table, or damaged") from error
-    if description["format"] != _FORMAT:
-        raise ValueError(f"path: '{path}' has format {description['format']}, known is {_FORMAT}")
-    if _checksum(stamp["text"], arrays) != stamp["sha256"]:
-        raise ValueError(f"path: '{path}' is damaged: its checksum does not agree")
-    return description, arrays

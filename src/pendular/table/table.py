@@ -60,9 +60,9 @@ class Table:
     tolerance : float
         Error of the force over the force at contact that was asked, [-].
     bound : Bound
-        Half as much again as the largest errors that a search of all cells found: ``force`` over the largest force of
-        the bridge, that at contact unless it bulges; ``rupture`` relative; ``liquid`` of a volume over that at contact,
-        of a suction over γ√(R̄/V); and how many ``bridges`` were compared.
+        The largest errors that a search of all cells found, with a margin, ``pendular.table.measure.SAFETY``: ``force``
+        over the largest force of the bridge, that at contact unless it bulges; ``rupture`` relative; ``liquid`` of a
+        volume over that at contact, of a suction over γ√(R̄/V); and how many ``bridges`` were compared.
     version : str
         Of Pendular.
     grid : Grid

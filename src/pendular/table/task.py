@@ -41,6 +41,16 @@ class Task(NamedTuple):
         return (low * low, high * high) if self.sides == 1 else (low, high)
 
 
+def refuse_dry(angles: tuple[float, float]) -> None:
+    """Refuse to write for others what says of solids of these contact angles that no suction holds a bridge."""
+    if holds_none(angles):
+        first, second = (math.degrees(angle) for angle in angles)
+        raise ValueError(
+            f"contact_angle: {first:.10g} and {second:.10g} deg are not below 180 deg together; "
+            "no suction holds a bridge beyond"
+        )
+
+
 def holds_none(angles: tuple[float, float]) -> bool:
     """Whether no suction holds a bridge between solids of these contact angles."""
     return math.cos(angles[0]) + math.cos(angles[1]) <= _LEAST_COSINES

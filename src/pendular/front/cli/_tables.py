@@ -51,6 +51,9 @@ def tabulated(
     control: Literal["suction", "volume"] = "suction" if volumes is None else "volume"
     with compiling_shown(), warnings.catch_warnings():
         from ...table import ToleranceWarning, tabulate
+        from ...table.task import refuse_dry
 
+        if control == "suction":
+            refuse_dry((angles[0], angles[1]))
         warnings.simplefilter("ignore", ToleranceWarning)
         return tabulate(angles, control, reduced=volumes or suctions, radius_ratio=ratios, tolerance=tolerance)
