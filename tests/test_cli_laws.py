@@ -5,7 +5,6 @@ import io
 import json
 import re
 import shlex
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -186,20 +185,6 @@ def test_pictures_are_written(answer, tmp_path, arguments):
 )
 def test_what_is_wrong_is_one_line_and_status_2(run, arguments, message):
     assert run(*arguments) == (2, "", f"pendular: {message}\n")
-
-
-def test_the_commands_of_the_readme_work(run, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    readme = (Path(__file__).parents[1] / "README.md").read_text("utf-8")
-    (section,) = re.findall(r"^## Which law\n(.*?)(?=^## |\Z)", readme, re.MULTILINE | re.DOTALL)
-    commands = re.findall(r"^uv run pendular (.+)$", section, re.MULTILINE)
-    assert len(commands) == 4
-    for command in commands:
-        status, output, errors = run(*shlex.split(command))
-        assert (status, errors) == (0, "")
-        assert output
-    best = re.search(r"`(\w+)` comes out best", section)[1]
-    assert f"best: {best}\n" in output
 
 
 @pytest.mark.parametrize("command", ["laws", "compare"])
