@@ -100,3 +100,20 @@ def test_under_suction(branch):
             gap = rng.uniform(0.2, 0.98) * end.separation
             found += check(pl.bridge(pair, gap, branch=branch, **held), curvatures, angles, volume_held=False)
     assert found > 10
+
+
+# Equal solids at the angle where the pitchfork moves past the fold: both lie within the probe that tells the index.
+@pytest.mark.parametrize(
+    ("angle", "volume", "separation"),
+    [
+        (0.5033385737425603, 0.05423572372236782, 0.24731564231477),
+        (0.5388318076770949, 0.0002127283390363022, 0.03546983140028875),
+    ],
+)
+def test_the_unstable_branch_goes_on_where_fold_and_pitchfork_meet(angle, volume, separation):
+    held = {"volume": volume, "liquid": pl.Liquid(surface_tension=1.0), "branch": "unstable"}
+    before, there = (pl.bridge(pl.Pair(1.0, a), separation, **held) for a in (angle - 1e-4, angle))
+    assert there.exists
+    assert there.volume == pytest.approx(volume, rel=1e-9)
+    assert there.force == pytest.approx(before.force, rel=0.01)
+    assert there.unstable_directions == before.unstable_directions

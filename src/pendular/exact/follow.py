@@ -114,7 +114,8 @@ def beyond(walk: Walk) -> tuple[Stance, Curve]:
     """Where a curve goes on after the fold, or the pitchfork, at which a walk ended.
 
     The slope and the stability at the event itself are the signs of rounding errors: they are taken from a point
-    beyond it. From a pitchfork two curves without symmetry start, mirror images of each other: one of them.
+    beyond it, and beyond a pitchfork that is next to a fold. From a pitchfork two curves without symmetry start, mirror
+    images of each other: one of them.
     """
     stance, curve = walk.stance, walk.curve
     if walk.event == PITCHFORK:
@@ -127,9 +128,11 @@ def beyond(walk: Walk) -> tuple[Stance, Curve]:
             curve = Curve(held, False, -1.0)
             after = stance_at(z, curve)
         return after, curve
-    unstable = just_after(stance, curve).unstable
-    slope = -walk.going * _ROUNDING
-    return Stance(stance.z, stance.tangent, stance.separation, slope, unstable, stance.margin, stance.opening), curve
+    after, slope = just_after(stance, curve), -walk.going * _ROUNDING
+    return (
+        Stance(stance.z, stance.tangent, stance.separation, slope, after.unstable, after.margin, stance.opening),
+        curve,
+    )
 
 
 @kernel
