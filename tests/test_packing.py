@@ -512,6 +512,14 @@ def test_a_heap_without_pores_and_one_with_noise_are_told():
     pl.wet(pl.Packing([(0, 0, 0), (2 - 1e-12, 0, 0)], 1.0), 1.7, suction=1e2, liquid=UNIT)  # no bridge, and no noise
 
 
+def test_digits_that_hide_gaps_are_told():
+    heap = loose(count=120)
+    cut = pl.Packing(heap.positions.round(2), 0.99 * heap.radii, cell=heap.cell)
+    pl.wet(cut, 0.3, suction=2.0, liquid=UNIT)
+    with pytest.warns(pl.PackingWarning, match="^positions: their digits tell gaps to 0.01 m, no better than a bridge"):
+        pl.wet(cut, 0.3, suction=500.0, liquid=UNIT)
+
+
 def test_a_search_serves_narrower_ones():
     heap = loose(count=60)
     setting = setting_of(heap, 0.3, UNIT, 0.0, True, "auto")

@@ -28,7 +28,7 @@ class Wall(NamedTuple):
     normal: Floats  # (3,), towards the grains; its length does not matter
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Packing:
     """Grains in a cell.
 
@@ -54,8 +54,8 @@ class Packing:
     Examples
     --------
     >>> heap = Packing([(0, 0, 0), (1e-3, 1e-3, 1e-3)], 0.5e-3, cell=(2e-3, 2e-3, 2e-3))
-    >>> f"{heap.volume:.3e} {heap.count}"
-    '8.000e-09 2'
+    >>> heap
+    Packing(2 grains of radius 0.0005 m, cell of 8e-09 m^3, periodic [True, True, True])
     """
 
     positions: Floats
@@ -89,6 +89,12 @@ class Packing:
                 raise ValueError(
                     f"walls[{i}]: the centre of grain {behind[0]} lies behind it; the normal points to the grains"
                 )
+
+    def __repr__(self) -> str:
+        radii = " to ".join(f"{radius:.4g}" for radius in np.unique([self.radii.min(), self.radii.max()]))
+        cell = "no cell" if self.cell is None else f"cell of {self.volume:.4g} m^3, periodic {self.periodic.tolist()}"
+        walls = f", walls {len(self.walls)}" if self.walls else ""
+        return f"Packing({self.count} grains of radius {radii} m, {cell}{walls})"
 
     @property
     def count(self) -> int:

@@ -16,6 +16,7 @@ from .answers import Answers, answers_at, geometry_of, uses_table
 from .heap import Packing, PackingWarning
 from .history import pairs_at, solid_volume_at, step_at
 from .neighbours import Neighbours
+from .precision import centre_noise
 from .setting import Setting, setting_of
 from .shape import AREA
 from .solids import pore_volume_of
@@ -31,6 +32,7 @@ Path = Literal["drying", "wetting"]
 _AMOUNTS = ("saturation", "water_content", "mass_ratio", "mass_fraction", "liquid_volume")
 _CONTROLS = ("suction", "humidity", *_AMOUNTS, "volume")
 NOT_CHECKED = TableError(0, math.nan, math.nan, math.nan, math.nan)
+_MANY = 100  # grains of which the digits are looked at; a few may be placed by hand
 _SAMPLE = 400  # bridges on which the error of a table is found
 
 
@@ -119,7 +121,8 @@ def wet(
     Warns
     -----
     PackingWarning
-        Where grains overlap by more than the rupture distance: noise of the positions hides gaps that hold no bridge.
+        Where grains overlap by more than the rupture distance, or the digits of their centres tell gaps no better: such
+        noise opens contacts.
 
     Notes
     -----
@@ -276,19 +279,25 @@ def _positive(name: str, value: object, unit: str) -> float:
 
 
 def _tell_noise(setting: Setting, pairs: Neighbours, suction: float) -> None:
-    """Warn where grains overlap by more than a bridge spans."""
-    overlap = pairs.gap < -setting.rounding
-    if not overlap.any():
+    """Warn where grains overlap by more than a bridge spans, or the digits of their centres tell no such gap."""
+    overlap = max(0.0, -float(pairs.gap.min(initial=0.0)))
+    cut = 2.0 * centre_noise(setting.heap.positions) if setting.heap.count >= _MANY else 0.0
+    if max(overlap, cut) <= setting.rounding:
         return
-    deepest = int(np.argmin(pairs.gap))
-    bodies = pairs.pairs[deepest]
+    bodies = pairs.pairs[np.argmin(pairs.gap)] if pairs.gap.size else np.zeros(2, np.int32)
     radii, angles = setting.radii[bodies], setting.angles[setting.kind[bodies]]
     pair = Pair((radii[0], radii[1]), (angles[0], angles[1]))
     spanned = float(np.nan_to_num(rupture(pair, suction=suction, liquid=setting.liquid).separation))
-    if -pairs.gap[deepest] > spanned:
+    if overlap > spanned:
         warn(
-            f"positions: grains overlap by up to {-pairs.gap[deepest]:.3g} m, more than a bridge spans at "
+            f"positions: grains overlap by up to {overlap:.3g} m, more than a bridge spans at "
             f"{suction:.6g} Pa, {spanned:.3g} m; with noise of that size gaps look too wide and the stress is too low",
+            PackingWarning,
+        )
+    elif cut > spanned:
+        warn(
+            f"positions: their digits tell gaps to {cut:.3g} m, no better than a bridge spans at {suction:.6g} Pa, "
+            f"{spanned:.3g} m; contacts look open and the stress is too low",
             PackingWarning,
         )
 

@@ -99,18 +99,18 @@ class TableError:
     grand_potential: float
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Wet:
     """A wetted heap, made by :func:`wet`."""
 
     heap: Packing
-    bridges: BridgesOfHeap = field(repr=False)
+    bridges: BridgesOfHeap
     book: Book
     suction: float  # common to all bridges, [Pa]; NaN where each keeps its own
     solid_volume: float  # of the grains, overlaps counted once, [m³]
     grain_density: float | None  # [kg/m³]
     table_error: TableError
-    _setting: Setting = field(repr=False)
+    _setting: Setting
 
     @property
     def liquid_volume(self) -> float:
@@ -257,10 +257,14 @@ class Wet:
         """Write the state to a file that :func:`load_state` reads."""
         self.state.save(path)
 
+    def __repr__(self) -> str:
+        return f"Wet({self})"
+
     def __str__(self) -> str:
+        suction = "suctions of their own" if math.isnan(self.suction) else f"suction {self.suction:.6g} Pa"
         beyond = "" if self.is_pendular else f"; bridges meet on {100 * self.meetings.grains:.3g} % of the grains"
         return (
-            f"{len(self.bridges)} bridges, suction {self.suction:.6g} Pa, saturation {self.saturation:.6g}, "
+            f"{len(self.bridges)} bridges, {suction}, saturation {self.saturation:.6g}, "
             f"suction stress {self.suction_stress:.6g} Pa{beyond}"
         )
 
