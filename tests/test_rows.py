@@ -372,3 +372,10 @@ def test_a_step_of_exactly_zero_is_no_error(angle, separation):
         z, is_met = newton_to(z, separation, held, 14)
         assert is_met
         np.testing.assert_allclose(z, first, rtol=0.0, atol=1e-14)
+
+
+def test_an_exact_sphere_is_no_error(plain):
+    """The drop of a pressure has no branch points, and no radius of curvature but one."""
+    (state,), (status,) = plain(batch.STABLE, SUCTION, np.array([[0.02, -0.34, 1.0, 0.35, 1.0, 0.35]]))
+    assert status == batch.FOUND
+    assert state[State._fields.index("curvature")] == pytest.approx(-0.34)

@@ -147,10 +147,10 @@ def cuts_of(real: float, imag: float, eta: float) -> tuple[Cut, float, int]:
     """
     h = 0.5 * eta
     cr, ci = 1.0 + h * real, h * imag
-    square = cr * cr + ci * ci
-    pole, spread = (real * ci - imag * cr) / square, abs(real * cr + imag * ci) / square
-    if not spread < _FARTHEST_POLE:
-        pole, spread = 0.0, _FARTHEST_POLE
+    square, aside = cr * cr + ci * ci, abs(real * cr + imag * ci)
+    pole, spread = 0.0, _FARTHEST_POLE
+    if aside < _FARTHEST_POLE * square:  # of a sphere there are none: both are 0
+        pole, spread = (real * ci - imag * cr) / square, aside / square
     spread = max(spread, 1e-14)
     low, high = (-1.0 - pole) / spread, (1.0 - pole) / spread
     # e^{asinh x} without cancellation
