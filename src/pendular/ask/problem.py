@@ -27,10 +27,10 @@ Asked = Literal["stable", "unstable", "upper", "lower"]
 Limit = Literal["stability", "fold"]
 
 _PER_SOLID = ("contact_radius", "half_filling_angle", "wetted_area", "capillary_tensor")
-_DEEPEST_OVERLAP = 0.5  # over the smaller radius
-_LIKELY_BETWEEN_PLANES = 0.3  # separation over the cube root of the volume
-_NARROWEST = 1e-5  # and the least that is asked
-_VOLUMES, _MOST_SUCTION = (
+DEEPEST_OVERLAP = 0.5  # over the smaller radius
+LIKELY_BETWEEN_PLANES = 0.3  # separation over the cube root of the volume
+NARROWEST = 1e-5  # and the least that is asked
+VOLUMES, MOST_SUCTION = (
     (1e-30, 1e4),
     1e13,
 )  # the domain, over R̄³ and γ/R̄: volumes, and the largest suction or pressure
@@ -141,7 +141,7 @@ def reduce(
             length = way.choose(are_planes, gap, smaller)
         held, reduced = SUCTION, value * length / liquid.surface_tension
     if separation is None:
-        gap = way.choose(are_planes, _LIKELY_BETWEEN_PLANES * length, gap)
+        gap = way.choose(are_planes, LIKELY_BETWEEN_PLANES * length, gap)
     rows = way.together(gap / length, reduced, length / radius1, angle1, length / radius2, angle2).reshape(-1, 6)
     asked = arrays["separation"] if separation is not None else np.reshape(gap, shape)
     return Problem(rows, held, asked, np.ravel(length), liquid.surface_tension, shape)
@@ -167,7 +167,7 @@ or ask bridge(branch='unstable') for the one between the two
 
 def _refuse_deep_overlap(separation: Any, smaller_radius: Any, shape: tuple[int, ...], way: _Way) -> None:
     """Refuse an overlap of half the smaller radius or more, which is no contact of grains, and any of two planes."""
-    lowest = way.choose(smaller_radius == np.inf, 0.0, -_DEEPEST_OVERLAP * smaller_radius)
+    lowest = way.choose(smaller_radius == np.inf, 0.0, -DEEPEST_OVERLAP * smaller_radius)
     is_too_deep = separation <= lowest
     if way.any(is_too_deep):
         i = _first(is_too_deep)
@@ -185,17 +185,17 @@ def _refuse_beyond_domain(
 ) -> None:
     """Refuse what the solver was not tried on: it has no meaning for grains either."""
     if control.name == "volume":
-        lowest = _NARROWEST * np.cbrt(value)
+        lowest = NARROWEST * np.cbrt(value)
         is_narrow = (mean_radius != mean_radius) & (separation != 0.0) & (separation < lowest)
         if way.any(is_narrow):
             i = _first(is_narrow)
             raise ValueError(
-                f"separation: {np.ravel(separation)[i]:.6g} m is not >= {np.ravel(lowest)[i]:.6g}, {_NARROWEST:g} of "
+                f"separation: {np.ravel(separation)[i]:.6g} m is not >= {np.ravel(lowest)[i]:.6g}, {NARROWEST:g} of "
                 f"the cube root of the volume, where the domain between two planes ends"
             )
-        unit, low, high, symbol, scale = mean_radius * mean_radius * mean_radius, *_VOLUMES, "m^3", "R³"
+        unit, low, high, symbol, scale = mean_radius * mean_radius * mean_radius, *VOLUMES, "m^3", "R³"
     else:
-        unit, low, high = liquid.surface_tension / mean_radius, -_MOST_SUCTION, _MOST_SUCTION
+        unit, low, high = liquid.surface_tension / mean_radius, -MOST_SUCTION, MOST_SUCTION
         symbol, scale = "Pa", "γ/R"
     is_strange = (value < low * unit) | (value > high * unit)
     if way.any(is_strange):

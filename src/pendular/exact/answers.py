@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..ground.compile import kernel
+from .algebra import Four
 from .curve import Curve, Stance
 from .ends import just_before, lower_end, quick_end, stable_bridge, unstable_bridge, upper_end
 from .equations import SUCTION
@@ -139,13 +140,19 @@ def holds_nothing(task: Task) -> bool:
 
 
 @kernel
-def directly_stored(task: Task, row: Rows) -> int:
+def stored_from(guess: Four, task: Task, row: Rows) -> int:
     """Store the stable bridge, if Newton's method leads to it from a guess."""
     held = held_of(task)
-    z, is_met = newton_to(guess_at(held, task.separation), task.separation, held, _MOST_STEPS)
+    z, is_met = newton_to(guess, task.separation, held, _MOST_STEPS)
     if not is_met:
         return FAILED
     description = describe(z, held, is_symmetric(task))
     if description.state.unstable_directions != 0.0 or not description.is_bridge:
         return FAILED
     return store(description, LARGEST_MISS, row)
+
+
+@kernel
+def directly_stored(task: Task, row: Rows) -> int:
+    """Store the stable bridge, if Newton's method leads to it from the closed guess."""
+    return stored_from(guess_at(held_of(task), task.separation), task, row)

@@ -53,6 +53,7 @@ __all__ = [
     "UNSTABLE",
     "answer",
     "answer_filling",
+    "answer_one",
     "draw",
     "lay",
 ]
@@ -87,14 +88,68 @@ def _can_hold(task: Task) -> bool:
     return not (task.control == SUCTION and are_planes(task)) and not holds_nothing(task)
 
 
+@kernel
+def _stable_stored(task: Task, row: Rows) -> int:
+    """Store the stable bridge to which Newton's method leads from a guess, else OPEN."""
+    if not _can_hold(task):
+        return NO_BRIDGE
+    return FOUND if directly_stored(task, row) == FOUND else OPEN
+
+
+@kernel
+def _end_stored(asked: int, limit: int, task: Task, row: Rows) -> int:
+    """Store a rupture to which leaps from a guess lead, or a bridge next to it, or tell that none is; else OPEN."""
+    if not _can_hold(task):
+        return NO_BRIDGE
+    end = answer_at_end(asked, limit, task)
+    status = _stored(asked, end, row) if end.status == FOUND else end.status
+    return OPEN if status == FAILED or (status != FOUND and end.event == ARRIVED) else status
+
+
+@kernel
+def _stored(asked: int, end: Answer, row: Rows) -> int:
+    """Store where a search ended; at a fold the force changes infinitely fast."""
+    status = store_end(end, row)
+    if end.event == FOLD:
+        row[STIFFNESS] = math.inf if asked == LOWER_END else -math.inf
+    return status
+
+
+@kernel
+def _bridge_stored(asked: int, limit: int, task: Task, nodes: Rows, row: Rows) -> int:
+    """Store what is asked, by every way to find it."""
+    if task.control == SUCTION and are_planes(task):
+        return nucleus_stored(task, nodes, row) if asked == UNSTABLE else NO_BRIDGE
+    if holds_nothing(task):
+        return NO_BRIDGE
+    if asked == STABLE and directly_stored(task, row) == FOUND:
+        return FOUND
+    end = answer_to(asked, limit, task, nodes[:0])
+    if end.status == FOUND:
+        return _stored(asked, end, row)
+    if end.status == FAILED and task.control == SUCTION and task.value < 0.0:
+        return NO_BRIDGE  # under pressure most pairs hold no bridge; one that exists is found
+    return end.status
+
+
+@kernel
+def answer_one(asked: int, limit: int, task: Task, nodes: Rows, row: Rows) -> int:
+    """Store the answer to one question by all parts of the solver, each after those that are sooner; the status."""
+    status = _stable_stored(task, row) if asked == STABLE else OPEN
+    if status == OPEN and asked in (STABLE, RUPTURE):
+        status = _end_stored(asked, limit, task, row)
+    if status == OPEN:
+        status = _bridge_stored(asked, limit, task, nodes, row)
+    if status != FOUND:
+        row[:] = math.nan
+    return status
+
+
 @entry(plain_cost=1.2e-3, patience=4.0)
 def stable_range(control: int, questions: Rows, states: Rows, statuses: Statuses, start: int, stop: int) -> None:
     """Stable bridges of the rows for which Newton's method leads there from a guess; others stay OPEN."""
     for i in range(start, stop):
-        task = task_of(questions[i], control)
-        status = NO_BRIDGE
-        if _can_hold(task):
-            status = FOUND if directly_stored(task, states[i]) == FOUND else OPEN
+        status = _stable_stored(task_of(questions[i], control), states[i])
         statuses[i] = status
         if status != FOUND:
             states[i, :] = math.nan
@@ -109,25 +164,10 @@ def end_range(
     Others stay OPEN.
     """
     for i in range(start, stop):
-        task = task_of(questions[i], control)
-        status = NO_BRIDGE
-        if _can_hold(task):
-            end = answer_at_end(asked, limit, task)
-            status = _end_stored(asked, end, states[i]) if end.status == FOUND else end.status
-            if status == FAILED or (status != FOUND and end.event == ARRIVED):
-                status = OPEN
+        status = _end_stored(asked, limit, task_of(questions[i], control), states[i])
         statuses[i] = status
         if status != FOUND:
             states[i, :] = math.nan
-
-
-@kernel
-def _end_stored(asked: int, end: Answer, row: Rows) -> int:
-    """Store where a search ended; at a fold the force changes infinitely fast."""
-    status = store_end(end, row)
-    if end.event == FOLD:
-        row[STIFFNESS] = math.inf if asked == LOWER_END else -math.inf
-    return status
 
 
 @entry(plain_cost=0.05, patience=15.0)
@@ -144,20 +184,7 @@ def bridge_range(
 ) -> None:
     """Answer the rows from start to stop."""
     for i in range(start, stop):
-        task = task_of(questions[i], control)
-        status = NO_BRIDGE
-        if control == SUCTION and are_planes(task):
-            if asked == UNSTABLE:
-                status = nucleus_stored(task, nodes, states[i])
-        elif not holds_nothing(task):
-            status = directly_stored(task, states[i]) if asked == STABLE else FAILED
-            if status != FOUND:
-                end = answer_to(asked, limit, task, nodes[:0])
-                status = end.status
-                if status == FOUND:
-                    status = _end_stored(asked, end, states[i])
-                elif status == FAILED and control == SUCTION and task.value < 0.0:
-                    status = NO_BRIDGE  # under pressure most pairs hold no bridge; one that exists is found
+        status = _bridge_stored(asked, limit, task_of(questions[i], control), nodes, states[i])
         statuses[i] = status
         if status != FOUND:
             states[i, :] = math.nan

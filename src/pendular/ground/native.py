@@ -26,7 +26,7 @@ from .compile import fastmath_of, rebound
 from .files import alone, whole
 from .stamp import stamp_of
 
-__all__ = ["build", "folder", "load", "notices"]
+__all__ = ["build", "context_of_files", "folder", "kept", "load", "made", "notices", "unlinked"]
 
 Native = Callable[..., None]
 
@@ -45,44 +45,56 @@ def load(function: Callable[..., None], arguments: tuple[Any, ...]) -> Native | 
     """Machine code of a kernel that returns nothing, for arguments of these types, None if there is no whole file."""
     kind = function, _types_of(arguments)
     if kind not in _loaded:
-        try:
-            sealed = _path_of(*kind).read_bytes()
-        except OSError:
-            return None
-        digest, content = sealed[:_SEAL], sealed[_SEAL:]
-        if hashlib.sha256(content).digest() != digest:
+        content = kept(*kind)
+        if content is None:
             return None
         _loaded[kind] = _linked(content)
     return _loaded[kind]
 
 
 def build(function: Callable[..., None], arguments: tuple[Any, ...]) -> Native:
-    """Compile a kernel for arguments of these types, keep its machine code where that can be done, and load it.
+    """Compile a kernel for arguments of these types, keep its machine code where that can be done, and load it."""
+    kind = function, _types_of(arguments)
+    content = made(*kind, lambda: _compiled(function, arguments))
+    if kind not in _loaded:
+        _loaded[kind] = _linked(content)
+    return _loaded[kind]
+
+
+def made(function: Callable[..., Any], types: str, compile: Callable[[], bytes]) -> bytes:
+    """Compile what is of a kernel for some types, and keep it where that can be done.
 
     Of processes that begin at once one compiles, and the others wait for it.
     """
-    kind = function, _types_of(arguments)
-    path = _path_of(*kind)
+    path = _path_of(function, types)
     with ExitStack() as told:
         told.enter_context(_building)
         for notice in notices:
             told.enter_context(notice())
         told.enter_context(alone(folder() / _LOCKS, path.name, _PATIENCE))
-        code = load(function, arguments)
-        if code is not None:
-            return code
-        told.enter_context(_without_collector())
-        content = _compiled(function, arguments)
-        with suppress(OSError), whole(path) as draft:
-            draft.write_bytes(hashlib.sha256(content).digest() + content)
-    code = _loaded[kind] = _linked(content)
-    return code
+        content = kept(function, types)
+        if content is None:
+            told.enter_context(_without_collector())
+            content = compile()
+            with suppress(OSError), whole(path) as draft:
+                draft.write_bytes(hashlib.sha256(content).digest() + content)
+    return content
 
 
 # -- the file --------------------------------------------------------------------------------------------------------
 
 
-def _path_of(function: Callable[..., None], types: str) -> Path:
+def kept(function: Callable[..., Any], types: str) -> bytes | None:
+    """What was made of a kernel for some types, None if there is no whole file."""
+    try:
+        sealed = _path_of(function, types).read_bytes()
+    except OSError:
+        return None
+    digest, content = sealed[:_SEAL], sealed[_SEAL:]
+    return content if hashlib.sha256(content).digest() == digest else None
+
+
+def _path_of(function: Callable[..., Any], types: str) -> Path:
     source = Path(function.__code__.co_filename)
     key = hashlib.sha256(f"{stamp_of(source)} {_processor()} {function.__module__} {types}".encode()).hexdigest()
     return folder() / f"{function.__name__}-{key[:24]}.o"
@@ -198,7 +210,7 @@ def _compiled(function: Callable[..., None], arguments: tuple[Any, ...]) -> byte
     from numba import typeof
     from numba.core.compiler_lock import global_compiler_lock
 
-    dispatcher = _unlinked(function)
+    dispatcher = unlinked(function)
     signature = tuple(typeof(argument) for argument in arguments)
     dispatcher.compile(signature)
     result = dispatcher.overloads[signature]
@@ -209,14 +221,14 @@ def _compiled(function: Callable[..., None], arguments: tuple[Any, ...]) -> byte
 
 
 @cache
-def _unlinked(function: Callable[..., Any]) -> Any:
+def unlinked(function: Callable[..., Any]) -> Any:
     """Dispatcher of a kernel whose code is for a file alone: nothing of it is loaded into this process."""
     from numba import njit
     from numba.core.compiler import Compiler
 
     class AheadOfTime(Compiler):
         def __init__(self, typing_context: Any, _context: Any, *rest: Any) -> None:
-            super().__init__(typing_context, _context_of_files(), *rest)
+            super().__init__(typing_context, context_of_files(), *rest)
             self.state.flags.no_compile = True
 
         def compile_extra(self, function: Any) -> Any:
@@ -234,11 +246,11 @@ def _unlinked(function: Callable[..., Any]) -> Any:
         "_nrt": False,  # a kernel owns no memory
         "pipeline_class": AheadOfTime,
     }
-    return njit(**options)(rebound(function, _unlinked))
+    return njit(**options)(rebound(function, unlinked))
 
 
 @cache
-def _context_of_files() -> Any:
+def context_of_files() -> Any:
     """Context in which code is optimised once, when it is whole: Numba would do it for each kernel and its callers."""
     from numba.core.codegen import AOTCodeLibrary, AOTCPUCodegen
     from numba.core.registry import cpu_target
@@ -249,6 +261,12 @@ def _context_of_files() -> Any:
 
         def _optimize_final_module(self) -> None:
             pass
+
+        def hide_all_but(self, names: set[str]) -> None:
+            module = self._final_module
+            for value in (*module.functions, *module.global_variables):
+                if not value.is_declaration and value.name not in names:
+                    value.linkage = "internal"
 
         def emit_native_object(self) -> Any:
             self._ensure_finalized()

@@ -10,6 +10,7 @@ from . import (  # noqa: F401, registers the commands
     data,
     export,
     export_c,
+    export_library,
     export_pair_table,
     export_table,
     laws,

@@ -1,0 +1,143 @@
+"""Kernels as functions of C: one object file for the linker of any program, that needs neither Python nor Numba.
+
+Each kernel is compiled as in `native`. Around it goes a function with a name and arguments of C, which lays out arrays
+as the kernel wants them; all else is hidden in the file. A kernel raises nothing, so that no error has to be told.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, NamedTuple
+
+from . import native
+
+__all__ = ["Array", "Constant", "Count", "Function", "Integer", "Real", "linkable", "processor"]
+
+
+class Constant(NamedTuple):
+    """An integer that a kernel is given, and C is not asked for."""
+
+    value: int
+
+
+class Integer(NamedTuple):
+    """``int`` in C."""
+
+
+class Real(NamedTuple):
+    """``double`` in C."""
+
+
+class Count(NamedTuple):
+    """``size_t`` in C: the rows of the arrays that follow, which tell the kernel how many there are."""
+
+
+class Array(NamedTuple):
+    """A pointer to the first number in C; one row where no count is given."""
+
+    columns: int = 0  # of an array of two axes
+    kind: str = "float64"  # or int32, which is int
+
+
+Argument = Constant | Integer | Real | Count | Array
+
+
+class Function(NamedTuple):
+    """A function of C: a kernel that returns a status, and where its arguments come from, in their order."""
+
+    name: str
+    kernel: Callable[..., int]
+    arguments: Sequence[Argument]
+
+
+def linkable(functions: Sequence[Function], failed: int) -> bytes:
+    """Object file with functions of C for this processor; a kernel that broke off, against all reason, has failed."""
+    kernel, types = functions[0].kernel, f"{failed} {[(f.name, f.kernel.__name__, *f.arguments) for f in functions]}"
+    return native.kept(kernel, types) or native.made(kernel, types, lambda: _compiled(functions, failed))
+
+
+def processor() -> str:
+    """The processor and the system that such a file is for."""
+    import llvmlite.binding as llvm
+
+    return f"{llvm.get_host_cpu_name()}, {llvm.get_process_triple()}"
+
+
+def _compiled(functions: Sequence[Function], failed: int) -> bytes:
+    from numba.core.compiler_lock import global_compiler_lock
+
+    context = native.context_of_files()
+    library = context.codegen().create_library("functions of C")
+    module = context.create_module("functions of C")
+    with global_compiler_lock:
+        for function in functions:
+            dispatcher = native.unlinked(function.kernel)
+            signature = tuple(_type_of(argument) for argument in function.arguments if not isinstance(argument, Count))
+            dispatcher.compile(signature)
+            result = dispatcher.overloads[signature]
+            library.add_linking_library(result.library)
+            _write(context, module, function, result.fndesc, failed)
+        library.add_ir_module(module)
+        library.finalize()
+        library.hide_all_but({function.name for function in functions})
+        code: bytes = library.emit_native_object()
+    return code
+
+
+def _type_of(argument: Argument) -> Any:
+    """Type of Numba that the kernel is given."""
+    from numba import types
+
+    if isinstance(argument, Array):
+        return types.Array(getattr(types, argument.kind), 2 if argument.columns else 1, "C")
+    return types.float64 if isinstance(argument, Real) else types.int64
+
+
+def _write(context: Any, module: Any, function: Function, inner: Any, failed: int) -> None:
+    """Write the function of C that calls a kernel."""
+    from llvmlite import ir
+    from numba.core.cgutils import get_or_insert_function
+
+    status = ir.IntType(32)
+    asked = [_c_type_of(argument) for argument in function.arguments if not isinstance(argument, Constant)]
+    outer = ir.Function(module, ir.FunctionType(status, asked), function.name)
+    builder = ir.IRBuilder(outer.append_basic_block())
+    given, count, values = iter(outer.args), ir.Constant(ir.IntType(64), 1), []
+    for argument in function.arguments:
+        if isinstance(argument, Count):
+            count = next(given)
+        else:
+            values.append(_value_of(context, builder, argument, given, count))
+    kernel_type = context.call_conv.get_function_type(inner.restype, inner.argtypes)
+    kernel = get_or_insert_function(module, kernel_type, inner.llvm_func_name)
+    ended, answer = context.call_conv.call_function(builder, kernel, inner.restype, inner.argtypes, values)
+    answer = builder.trunc(answer, status)
+    builder.ret(builder.select(ended.is_error, ir.Constant(status, failed), answer))
+
+
+def _c_type_of(argument: Argument) -> Any:
+    from llvmlite import ir
+
+    if isinstance(argument, Array):
+        return (ir.DoubleType() if argument.kind == "float64" else ir.IntType(32)).as_pointer()
+    if isinstance(argument, Real):
+        return ir.DoubleType()
+    return ir.IntType(64 if isinstance(argument, Count) else 32)
+
+
+def _value_of(context: Any, builder: Any, argument: Argument, given: Iterator[Any], count: Any) -> Any:
+    """What the kernel is given for what C gives next."""
+    from llvmlite import ir
+    from numba.np.arrayobj import populate_array
+
+    whole = ir.IntType(64)
+    if isinstance(argument, Constant):
+        return ir.Constant(whole, argument.value)
+    if isinstance(argument, Integer):
+        return builder.sext(next(given), whole)
+    if not isinstance(argument, Array):
+        return next(given)
+    size = 8 if argument.kind == "float64" else 4
+    shape = [count, ir.Constant(whole, argument.columns)] if argument.columns else [count]
+    strides = [ir.Constant(whole, size * argument.columns), ir.Constant(whole, size)][-len(shape) :]
+    array = context.make_array(_type_of(argument))(context, builder)
+    populate_array(array, next(given), shape, strides, ir.Constant(whole, size), None)
+    return array._getvalue()
