@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tools.code_blocks import code_blocks
 
 import pendular as pl
 from pendular.exact import batch
@@ -21,7 +22,8 @@ from pendular.ground.rows import by_machine_code
 pytestmark = pytest.mark.needs("numba")
 
 SEED = 1911
-EXAMPLES = Path(__file__).parents[1] / "examples" / "library"
+ROOT = Path(__file__).parents[1]
+EXAMPLES = ROOT / "examples" / "library"
 WARNINGS = ("-Wall", "-Wextra", "-Werror", "-pedantic")
 FOUND, NO_BRIDGE, FAILED, BAD_INPUT = range(4)
 CONTROLS = {"suction": SUCTION, "volume": VOLUME}
@@ -359,6 +361,19 @@ def test_the_example_in_fortran(written, library, tmp_path):
 def test_the_example_in_julia(written, library):
     program = ["julia", EXAMPLES / "exact.jl", written / "libpendular.so"]
     assert_as_in_python(library, *printed_rows(program), SUCTION, 14e3, "volume")
+
+
+@pytest.mark.skipif(shutil.which("gcc") is None, reason="gcc is not installed")
+def test_the_code_of_the_page_runs(written, library, tmp_path):
+    (block,) = [each for each in code_blocks((ROOT / "docs" / "c_library.md").read_text()) if each.language == "c"]
+    include, _, body = block.code.partition("\n")
+    program = f"#include <stdio.h>\n{include}\nint main(void)\n{{\n{body}return status;\n}}\n"
+    (tmp_path / "main.c").write_text(program)
+    command = ["gcc", *WARNINGS, "main.c", "-I", written, written / "libpendular.a", "-lm"]
+    subprocess.run(command, cwd=tmp_path, check=True)
+    told = subprocess.run([tmp_path / "a.out"], check=True, capture_output=True, text=True).stdout
+    state, _ = library.one("pendular_bridge", SUCTION, 1e-6, 14e3, pair=(50e-6, 100e-6, 0.35, 0.35, 0.0728))
+    assert told == f"{state.force:g} N, {state.volume:g} m3\n"
 
 
 # The command -------------------------------------------------------------------------------------------------------

@@ -32,6 +32,7 @@ ELSEWHERE = {
     "explorer.md": "test_web_page.py",
     "speed.md": "test_table.py",
     "c_header.md": "test_c_header.py",
+    "c_library.md": "test_c_library.py",
     "howto/gpu.md": "test_cuda.py",
 }
 OWN = [name for name in PAGES if name not in ELSEWHERE]
