@@ -237,3 +237,13 @@ def test_the_stamp_covers_all_that_a_kernel_can_reach():
         assert {path, PACKAGE / "ground" / "compile.py"} <= covered
         for source in covered:
             assert {modules[name] for name in parsed_imports(source) & set(modules)} <= covered, (path, source)
+
+
+@pytest.mark.parametrize("room", ["exact", "laws", "table"])
+def test_no_kernel_depends_on_what_is_above_it(room):
+    """Else a change of a command would compile the solver anew."""
+    below = {"exact": {"exact", "ground"}, "laws": {"laws", "exact", "ground"}, "table": {"table", "exact", "ground"}}
+    for path in (PACKAGE / room).rglob("*.py"):
+        if "@kernel\n" in path.read_text():
+            reached = {source.relative_to(PACKAGE).parts[0] for source in stamp._sources_of(path)}
+            assert reached <= below[room], path

@@ -19,13 +19,13 @@ __all__ = ["LOCK", "compile_all"]
 LOCK = "compiling.lock"  # in the folder of machine code, while a process is at work
 
 _LONGEST = 3600.0  # s, after which a lock is of a process that was killed
+# By its name, as stamps follow statements that import: no kernel depends on the front.
 _COMMAND = """
-import os, sys
+import importlib, os, sys
 if hasattr(os, "nice"):
     os.nice(19)
 try:
-    from pendular.front.ahead import compile_ahead
-    for _ in compile_ahead():
+    for _ in importlib.import_module("pendular.front.ahead").compile_ahead():
         pass
 finally:
     os.unlink(sys.argv[1])
