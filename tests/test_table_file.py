@@ -20,6 +20,7 @@ import pendular as pl
 from pendular.codes.c_header import table_header
 from pendular.front.cli import main
 from pendular.table import binary, kernels, storage
+from pendular.table.channels import known
 
 SEED = 20
 HERE = Path(__file__).parent
@@ -488,6 +489,73 @@ def test_a_further_channel_is_answered_by_its_name(reader, suction_table, conten
     assert np.array_equal(pl.load_table(path).grid.force, suction_table.grid.force)
 
 
+def more_of(table, contact):
+    """Exact values of the channels beside force and liquid, each with what its bound is relative to."""
+    gap, control, radius1, radius2, tension = contact
+    grains, liquid = pl.Pair((radius1, radius2), tuple(table.contact_angle)), pl.Liquid(surface_tension=tension)
+    bridge, touching = (pl.bridge(grains, at, **{table.control: control}, liquid=liquid) for at in (gap, 0.0))
+    values = {
+        "neck_radius": (bridge.neck_radius, touching.neck_radius),
+        "area": (bridge.liquid_gas_area, touching.liquid_gas_area),
+        "across_tensor": (bridge.capillary_tensor[0], touching.capillary_tensor[0]),
+        "axial_tensor": (bridge.capillary_tensor[1], touching.capillary_tensor[1]),
+    }
+    first, second = bridge.half_filling_angle
+    if table.grid.sides == 2:
+        return values | {"half_filling1": (first, 1.0), "half_filling2": (second, 1.0)}
+    s = abs(radius1 - radius2) / (radius1 + radius2) if math.isfinite(radius1 + radius2) else 1.0
+    values["half_filling_mean"] = 0.5 * (first + second), 1.0
+    if s > 0.0:  # equal spheres have no difference
+        slope = (first - second if radius1 < radius2 else second - first) / s
+        values["half_filling_slope"] = slope, 2.0 / s
+    return values
+
+
+@needs_c
+@pytest.mark.parametrize("name", ["any ratio", "two angles", "volume"])
+def test_more_channels_are_exact_within_their_bounds(reader, name, tmp_path):
+    table = pl.tabulate(**TABLES[name])
+    names = tuple(known(table.grid.sides))
+    table.save(tmp_path / "w.bridges")
+    plain = (tmp_path / "w.bridges").read_bytes()
+    table.save(tmp_path / "w.bridges", channels=names)
+    assert (tmp_path / "w.bridges").stat().st_size > 2 * len(plain)
+    assert np.array_equal(pl.load_table(tmp_path / "w.bridges").grid.force, table.grid.force)
+    opened = reader.open(tmp_path / "w.bridges")
+    told = {name: bound for name, bound, _ in binary.told_channels(tmp_path / "w.bridges")}
+    contact = np.array(contacts_of(table, 200))
+    contact[3, :5] = contact[2, :5]  # equal spheres, and planes
+    contact[3, 5:10] = math.inf if name == "any ratio" else contact[3, 5:10]
+    mean, star = 2.0 / (1.0 / contact[2] + 1.0 / contact[3]), math.sqrt(math.prod(table.reduced))
+    contact[1, :10] = (star * mean**3 if name == "volume" else star * contact[4] / mean)[:10]
+    rupture = table.rupture_distance(*contact[1:])
+    contact[0] = np.random.default_rng(SEED).uniform(0.0, 0.999, 200) * rupture
+    found = {each: reader.ask(opened, reader.library.channel_of(opened, each.encode()), contact) for each in names}
+    for i in range(200):
+        for each, (exact, unit) in more_of(table, contact[:, i].tolist()).items():
+            assert abs(found[each][i] - exact) <= told[each] * unit, (each, contact[:, i].tolist())
+    beyond = contact.copy()
+    beyond[0] = 1.01 * rupture
+    for each in names:
+        assert np.isnan(reader.ask(opened, reader.library.channel_of(opened, each.encode()), beyond)).all()
+
+
+def test_channels_that_cannot_be_are_refused(suction_table, tmp_path):
+    path = tmp_path / "w.bridges"
+    with pytest.raises(ValueError, match=r"^channels: 'wetness' is not one of [^\n]*neck_radius[^\n]*half_filling1"):
+        suction_table.save(path, channels=("wetness",))
+    with pytest.raises(ValueError, match=r"^channels: \('area', 'area'\) names one twice$"):
+        suction_table.save(path, channels=("area", "area"))
+    with pytest.raises(ValueError, match=r"^channels: are of files that end in \.bridges, not of '.*w\.npz'$"):
+        suction_table.save(tmp_path / "w.npz", channels=("area",))
+    pushing = pl.tabulate(math.radians(110), "volume", reduced=(0.01, 0.0156), radius_ratio=(1.0, 1.0), tolerance=1e-3)
+    with pytest.raises(ValueError, match=r"^channels: 'neck_radius' is not there for some bridges"):
+        pushing.save(path, channels=("neck_radius",))
+    with pytest.raises(ValueError, match=r"^contact_angle: "):
+        pl.tabulate(**TABLES["dry"]).save(path, channels=("area",))
+    assert list(tmp_path.iterdir()) == []
+
+
 @needs_c
 def test_a_moved_table_is_the_same(reader, content, suction_table, tmp_path):
     (tmp_path / "w.bridges").write_bytes(content)
@@ -611,6 +679,30 @@ def test_the_command_writes_a_table_of_constant_volume(run, tmp_path):
     assert pl.load_table(out).control == "volume"
 
 
+def test_the_command_adds_channels_by_name(run, tmp_path):
+    out = tmp_path / "w.bridges"
+    ranges = ("--reduced-suction", 10, 20, "--radius-ratio", 1, 2, "--tolerance", 1e-4)
+    code, told, _ = run(
+        "export",
+        "table",
+        "--contact-angle",
+        "20",
+        *ranges,
+        "--out",
+        out,
+        "--channel",
+        "area",
+        "--channel",
+        "neck_radius",
+    )
+    assert code == 0
+    assert [line.split()[0] for line in told.splitlines()[-2:]] == ["area", "neck_radius"]
+    assert all(line.endswith(" of its value at contact") for line in told.splitlines()[-2:])
+    assert [name for name, *_ in binary.told_channels(out)] == [
+        "rupture_distance", "force", "volume", "area", "neck_radius",
+    ]  # fmt: skip
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [
@@ -618,6 +710,7 @@ def test_the_command_writes_a_table_of_constant_volume(run, tmp_path):
         (["--out", "none/w.bridges"], "out: 'none' is not a folder to write to"),
         (["--out", "w.bridges", "--reduced-suction", "1", "2", "--reduced-volume", "1", "2"], "reduced-volume: given"),
         (["--out", "w.bridges", "--tolerance", "1"], "tolerance: 1.0 is not in"),
+        (["--out", "w.bridges", "--channel", "wetness"], "channel: 'wetness' is not one of"),
         (["--out", "w.bridges", "--contact-angle2", "181"], "contact-angle2: "),
         (["--out", "w.bridges", "--contact-angle2", "160"], "contact_angle: 20 and 160 deg are not below 180 deg"),
     ],

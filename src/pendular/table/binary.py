@@ -2,7 +2,7 @@
 
 import math
 import zlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -13,7 +13,7 @@ from ..ground.files import in_one_line, whole
 from .polynomial import CELL, RUPTURE_CELL
 from .sound import CUT, LINE, MOST_ROWS, refuse_unsound, require
 
-__all__ = ["CHANNELS", "MAGIC", "SUFFIX", "Channel", "is_binary", "load", "packed", "save", "unpacked"]
+__all__ = ["CHANNELS", "MAGIC", "SUFFIX", "Channel", "is_binary", "load", "packed", "save", "told_channels", "unpacked"]
 
 Description = dict[str, Any]
 Arrays = dict[str, NDArray[Any]]
@@ -70,35 +70,40 @@ def _names(control: str) -> tuple[str, str, str]:
 # -- writing ---------------------------------------------------------------------------------------------------------
 
 
-def save(path: Path, description: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> None:
-    """Write what `storage.save` writes in the binary format."""
-    content = packed(description, arrays)
+More = tuple[str, Channel, float, NDArray[np.float64]]  # name, bound and coefficients of a further channel
+
+
+def save(
+    path: Path, description: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], more: Sequence[More] = ()
+) -> None:
+    """Write what `storage.save` writes in the binary format, and further channels."""
+    content = packed(description, arrays, more)
     with in_one_line("path", path), whole(path) as draft:
         draft.write_bytes(content)
 
 
-def packed(description: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> bytes:
-    """Bytes of the file of a table."""
+def packed(description: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], more: Sequence[More] = ()) -> bytes:
+    """Bytes of the file of a table, with further channels."""
     force, rupture, liquid, bridges = description["bound"]
     names = _names(description["control"])
-    channels = [
-        (name, *CHANNELS[name][:3], bound, *CHANNELS[name][3:])
-        for name, bound in zip(names, (rupture, force, liquid), strict=True)
-    ]
+    known = [(name, CHANNELS[name], bound) for name, bound in zip(names, (rupture, force, liquid), strict=True)]
+    known += [(name, channel, bound) for name, channel, bound, _ in more]
+    channels = [(name, *channel[:3], bound, *channel[3:]) for name, channel, bound in known]
     rows = (
         np.array(channels, _CHANNEL).tobytes()
         + arrays["lines"].astype("<f8").tobytes()
         + arrays["cuts"].astype("<i4").tobytes()
     )
     padding = bytes(-(_HEADER.itemsize + len(rows)) % _ALIGNMENT)
-    coefficients = b"".join(arrays[name].astype("<f8").tobytes() for name in ("rupture", "force", "liquid"))
+    numbers = [*(arrays[name] for name in ("rupture", "force", "liquid")), *(numbers for *_, numbers in more)]
+    coefficients = b"".join(array.astype("<f8").tobytes() for array in numbers)
     parts = rows + padding + coefficients
     shift, first, count = description["cut"]
     writer = description["version"][: _HEADER["writer"].itemsize - 1]
     header = np.array(
         (
             MAGIC, _BYTE_ORDER, _VERSION, _HEADER.itemsize + len(parts) + _CHECKSUM,
-            _CONTROLS.index(description["control"]), len(arrays["lines"]) // count, count, len(names),
+            _CONTROLS.index(description["control"]), len(arrays["lines"]) // count, count, len(channels),
             shift, first, arrays["rupture"].size // RUPTURE_CELL, arrays["force"].size // CELL,
             description["contact_angle"], description["reduced"], [float(r) for r in description["radius_ratio"]],
             description["range"], description["tolerance"], bridges, writer,
@@ -125,6 +130,14 @@ def load(path: Path) -> tuple[Description, Arrays]:
         return unpacked(content)
     except ValueError as error:
         raise ValueError(f"path: '{path}' {error}") from error
+
+
+def told_channels(path: Path) -> list[tuple[str, float, str]]:
+    """Name, bound of the error, and what that is relative to, of each channel of a whole file."""
+    content = path.read_bytes()
+    count = int(np.frombuffer(content, _HEADER, 1)[0]["channels"])
+    channels = np.frombuffer(content, _CHANNEL, count, _HEADER.itemsize)
+    return [(each["name"].decode(), float(each["bound"]), each["bound_of"].decode()) for each in channels]
 
 
 def unpacked(content: bytes) -> tuple[Description, Arrays]:

@@ -136,7 +136,9 @@ def _powers(values: Floats, axis: int) -> Floats:
 
 def _rounded(coefficients: Floats, precision: Floats) -> Floats:
     """Coefficients rounded to a power of two below the precision, one for each cell, the first axis."""
-    unit = np.exp2(np.floor(np.log2(precision))).reshape(-1, *(1,) * (coefficients.ndim - 1))
+    unit = np.exp2(np.floor(np.log2(np.where(precision > 0.0, precision, 1.0)))).reshape(
+        -1, *(1,) * (coefficients.ndim - 1)
+    )
     return np.round(coefficients / unit) * unit
 
 
@@ -165,13 +167,18 @@ def _fill_values(task: Task, edges: Floats, octave: Octave, side: int) -> Floats
     slow = np.sqrt(pairs[0].ravel()) if task.is_volume else np.square(pairs[0].ravel())
     found[..., 1] *= slow[:, None]
     values = np.moveaxis(found.reshape(*pairs[0].shape, *q.shape, 2), (6, 4), (0, 3))  # (2, row, size, q, x, y, t)
+    return cells_of(values, task.tolerance)
+
+
+def cells_of(values: Floats, tolerance: float) -> Floats:
+    """Coefficients of quantities, (quantities, all), from values: (quantities, row, size, q, x, y, t)."""
     shortened = np.moveaxis(truncated(np.moveaxis(values, (4, 5), (-2, -1))), (-2, -1), (4, 5))
     coefficients = _powers(_powers(_powers(shortened, 4), 5), 6)
     powers = [(i, j) for i in range(CONTROL_TERMS) for j in range(SIZE_TERMS) if i + j < SIZE_TERMS][::-1]
-    cells = coefficients[:, :, :, :, *np.transpose(powers)].reshape(2, -1, len(powers), LANES)
+    cells = coefficients[:, :, :, :, *np.transpose(powers)].reshape(len(values), -1, len(powers), LANES)
     largest = np.abs(values).max(axis=(2, 3, 4, 5, 6))  # of a control cell: at contact
-    precision = np.repeat(_ROUNDING * task.tolerance * largest, cells.shape[1] // largest.shape[1], axis=1)
-    return np.stack([_rounded(cells[i], precision[i]).ravel() for i in range(2)])
+    precision = np.repeat(_ROUNDING * tolerance * largest, cells.shape[1] // largest.shape[1], axis=1)
+    return np.stack([_rounded(cells[i], precision[i]).ravel() for i in range(len(values))])
 
 
 def sample_range(task: Task) -> list[Samples]:

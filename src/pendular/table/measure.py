@@ -41,7 +41,7 @@ Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 SAFETY = 1.75  # the stated bound over the largest error that the search finds
-_SEED = 20260
+SEED = 20260
 _NEAREST_RUPTURE = 0.002  # in q: 1 - D/D_c = 4e-6
 _CORNERS = np.array([[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]])  # of a cell of control and size
 _CURVES, _LEAST_CURVES = 8, 4000  # in each cell of control and size; in all, where there are few cells
@@ -85,10 +85,10 @@ class Errors(NamedTuple):
 
 def measure(grid: Grid, task: Task) -> Bound:
     """Search a table for its largest errors."""
-    random = np.random.default_rng(_SEED)
+    random = np.random.default_rng(SEED)
     worst, count = np.zeros(3), 0
     starts: list[list[tuple[Floats, Places]]] = [[], [], []]
-    for places in _all_cells(grid, random):
+    for places in all_cells(grid, random):
         errors = _errors(grid, task, places)
         count += errors.force.size
         for kind, each in enumerate((errors.force, errors.rupture[:, None], errors.liquid)):
@@ -115,7 +115,7 @@ def _coordinates(random: np.random.Generator, shape: tuple[int, ...]) -> Floats:
     return np.where(random.uniform(size=shape) < _AT_ENDS, np.sign(inside), inside)
 
 
-def _all_cells(grid: Grid, random: np.random.Generator) -> Iterator[Places]:
+def all_cells(grid: Grid, random: np.random.Generator) -> Iterator[Places]:
     """Curves at the corners and in all cells of control and size, with places in all cells of q in turn; in parts."""
     rows = np.unique(grid.cuts[:, SIZE_CELLS], return_index=True)[1]  # of those that share their cells, one
     sizes = grid.cuts[rows, U_COUNT]
@@ -165,39 +165,44 @@ def _climb(
     return float(error.max()), count
 
 
-def _between(cell: Integers, place: Floats, shift: Integers, first: Integers) -> Floats:
+def between(cell: Integers, place: Floats, shift: Integers, first: Integers) -> Floats:
     """The number w at a coordinate in a cell."""
     low, high = (((first + cell + side) << shift).view(np.float64) for side in (0, 1))
     return np.asarray(low + 0.5 * (high - low) * (1.0 + place))
 
 
-def _position(grid: Grid, task: Task, places: Places) -> tuple[Floats, Floats, Floats]:
+def position(grid: Grid, task: Task, places: Places) -> tuple[Floats, Floats, Floats]:
     """Control, size and q of places, inside the range that is tabulated."""
     row, size_cell = places.cell.T
     line, cut = grid.lines[row], grid.cuts[row]
     control = np.clip((places.pair[:, 0] - line[:, X0]) / line[:, X1], task.low, task.high)
     size = np.full(control.size, task.sizes[0])
     if task.sizes[1] > task.sizes[0]:
-        w = _between(size_cell, places.pair[:, 1], cut[:, U_SHIFT], cut[:, U_FIRST])
+        w = between(size_cell, places.pair[:, 1], cut[:, U_SHIFT], cut[:, U_FIRST])
         size = np.clip((w - line[:, U0]) / line[:, U1], *task.sizes)
-    w = _between(places.q_cell, places.t, cut[:, Q_SHIFT, None], cut[:, Q_FIRST, None])
+    w = between(places.q_cell, places.t, cut[:, Q_SHIFT, None], cut[:, Q_FIRST, None])
     return control, size, np.clip((w - line[:, Q0, None]) / line[:, Q1, None], _NEAREST_RUPTURE, 1.0)
 
 
 def _exact(task: Task, pairs: Floats, q: Floats) -> tuple[Floats, Floats]:
     """Exact forces and liquids, (curves, q, 2), and rupture distances; NaN where there is no bridge."""
+    states, rupture = exact_states(task, pairs, q)
+    force, volume, curvature = np.moveaxis(states[..., _COLUMNS], -1, 0)
+    return np.stack([force, curvature if task.is_volume else volume], axis=-1), rupture
+
+
+def exact_states(task: Task, pairs: Floats, q: Floats) -> tuple[Floats, Floats]:
+    """Exact bridges, (curves, q, fields), and rupture distances; NaN where there is none."""
     held = VOLUME if task.is_volume else SUCTION
     rupture = answer(END, held, np.column_stack([np.zeros(len(pairs)), pairs]))[0][:, 0]
     gap = rupture[:, None] * (1.0 - q * q)
-    questions = np.column_stack([gap.ravel(), np.repeat(pairs, q.shape[1], axis=0)])
-    states, _ = answer(STABLE, held, questions)
-    force, volume, curvature = states[:, _COLUMNS].T
-    return np.stack([force, curvature if task.is_volume else volume], axis=1).reshape(*q.shape, 2), rupture
+    states, _ = answer(STABLE, held, np.column_stack([gap.ravel(), np.repeat(pairs, q.shape[1], axis=0)]))
+    return states.reshape(*q.shape, -1), rupture
 
 
 def _errors(grid: Grid, task: Task, places: Places) -> Errors:
     """Errors of a table at places; where it holds no bridge and there is one, the error of the liquid is infinite."""
-    control, size, q = _position(grid, task, places)
+    control, size, q = position(grid, task, places)
     pairs = pairs_of(task, control, size, places.cell[:, 0] // grid.cells)
     exact, rupture = _exact(task, pairs, np.column_stack([q, np.broadcast_to(_SCALE, (control.size, _SCALE.size))]))
     gap = rupture[:, None] * (1.0 - q * q)

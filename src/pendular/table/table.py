@@ -1,5 +1,6 @@
 """A table as its users see it: built, asked in SI units, saved and loaded."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
 from math import inf
@@ -14,6 +15,7 @@ from ..ground.warn import warn
 from . import binary, storage
 from .arrays import ENERGY, FORCE, LIQUID, RUPTURE, STIFFNESS, evaluate
 from .build import build_grid, empty_grid, sample_range
+from .channels import fill, known
 from .curve import ForceCurve, curve_of
 from .holding import refuse_without_contact
 from .kernels import Grid
@@ -208,7 +210,7 @@ class Table:
         self.force(0.0, control, radius1, radius2, surface_tension)
         return curve_of(self.grid, self.tolerance, control, radius1, radius2, surface_tension)
 
-    def save(self, path: str | PathLike[str]) -> None:
+    def save(self, path: str | PathLike[str], *, channels: Sequence[str] = ()) -> None:
         """Write the table to one file, with its version, its bounds and a checksum.
 
         Parameters
@@ -216,6 +218,16 @@ class Table:
         path : path
             Of the file. One that ends in ``.bridges`` is of the binary format that particle codes read without Python;
             any other is an archive of NumPy, and smaller.
+        channels : sequence of str
+            What a file of the binary format shall hold beside force and liquid, for the programs that read it: any of
+            ``neck_radius``, ``area``, ``across_tensor`` and ``axial_tensor``, and of the half-filling angles
+            ``half_filling1`` and ``half_filling2`` where the contact angles differ, else ``half_filling_mean`` and
+            ``half_filling_slope``. Each makes it larger by about a half.
+
+        Raises
+        ------
+        ValueError
+            If a channel is not known, or not there for all bridges of the table, or the file cannot be written.
         """
         description = {
             "contact_angle": self.contact_angle,
@@ -229,8 +241,23 @@ class Table:
             "range": [self.grid.low, self.grid.high, self.grid.least_ratio, self.grid.largest_ratio],
         }
         place = as_path("path", path)
-        form = binary if place.suffix == binary.SUFFIX else storage
-        form.save(place, description, {name: getattr(self.grid, name) for name in _ARRAYS})
+        arrays = {name: getattr(self.grid, name) for name in _ARRAYS}
+        for channel in channels:
+            one_of("channels", channel, tuple(known(self.grid.sides)))
+        if len(set(channels)) < len(channels):
+            raise ValueError(f"channels: {tuple(channels)!r} names one twice")
+        if place.suffix == binary.SUFFIX:
+            binary.save(place, description, arrays, fill(self.grid, self._task, channels))
+        elif channels:
+            raise ValueError(f"channels: are of files that end in {binary.SUFFIX}, not of '{place}'")
+        else:
+            storage.save(place, description, arrays)
+
+    @property
+    def _task(self) -> Task:
+        return Task(
+            self.contact_angle, self.control == "volume", *self.reduced, *self.radius_ratio, self.tolerance, 1.0
+        )
 
     def _ask(self, asked: int, out: Floats | None, *arguments: ArrayLike) -> Floats:
         named = zip(operands_of(self.control).items(), arguments, strict=True)
