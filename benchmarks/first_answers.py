@@ -29,14 +29,14 @@ TABLE = "import pendular as pl; pl.tabulate(0.35)"
 ADVANCE = "The solver is being prepared"  # what the page says until it can answer
 EMPTY_CACHES = ("PENDULAR_CACHE_DIR", "NUMBA_CACHE_DIR", "MPLCONFIGDIR", "XDG_CACHE_HOME", "HOME")
 
-CALL = """
+TIMED = """
 import time
 import pendular as pl
 pair, water = pl.Pair(radius=50e-6, contact_angle=0.35), pl.Liquid(surface_tension=0.0728)
 def ask(count):
     begin = time.process_time()
     for i in range(count):
-        pl.bridge(pair, 1e-6 + 1e-9 * i, suction=20e3, liquid=water)
+        CALL
     return 1e3 * (time.process_time() - begin) / count
 ask(1)  # what is imported when it is first asked for
 first = ask(5)
@@ -44,6 +44,11 @@ for _ in range(8):  # until machine code is worth its loading
     ask(50)
 print(first, min(ask(200) for _ in range(5)))
 """
+CALLS = {
+    "a scalar `pl.bridge(...)` at a suction": "pl.bridge(pair, 1e-6 + 1e-9 * i, suction=20e3, liquid=water)",
+    "a scalar `pl.bridge(...)` at a volume": "pl.bridge(pair, 1e-6 + 1e-9 * i, volume=5e-15, liquid=water)",
+    "a scalar `pl.rupture(...)`": "pl.rupture(pair, suction=20e3 + i, liquid=water)",
+}
 MANY = """
 import numpy as np
 import pendular as pl
@@ -163,12 +168,13 @@ def time_of(arguments: tuple[str, ...]) -> Callable[[Path], float]:
     return measure
 
 
-def of_call(ready: Path) -> tuple[float, float]:
+def of_call(call: str, ready: Path) -> tuple[float, float]:
     """Time of a scalar call in Python, with no machine code there and with it loaded, [ms]."""
 
     def answers(caches: Path) -> tuple[float, float]:
         own = environment(caches)
-        done = subprocess.run([sys.executable, "-c", CALL], env=own, capture_output=True, text=True, check=True)
+        script = TIMED.replace("CALL", call)
+        done = subprocess.run([sys.executable, "-c", script], env=own, capture_output=True, text=True, check=True)
         first, later = map(float, done.stdout.split())
         return first, later
 
@@ -208,9 +214,10 @@ def page(chosen: list[str]) -> str:
                 found = medians(time_of(question.arguments), ready)
                 rows.append(row(question.name, *found, (question.cold, question.warm), floor))
                 sys.stderr.write(rows[-1] + "\n")
-        if not chosen or "call" in chosen:
-            goals = (GOALS["call cold"], GOALS["call warm"])
-            rows.append(row("a scalar `pl.bridge(...)`", *of_call(ready), goals, unit="ms"))
+        for name, call in CALLS.items():
+            if not chosen or "call" in chosen:
+                goals = (GOALS["call cold"], GOALS["call warm"])
+                rows.append(row(name, *of_call(call, ready), goals, unit="ms"))
     versions = ", ".join(f"{name} {version(name.lower())}" for name in ("NumPy", "Numba", "Matplotlib"))
     return f"""# What a first answer costs
 
