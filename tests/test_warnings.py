@@ -51,7 +51,7 @@ CALLS = {
 SILENT = {
     *("contact_energy", "contact_forces", "humidity_from_suction", "suction_from_humidity", "load_table"),
     *("lattice_packing", "random_packing", "sieved_radii", "loosened", "centre_noise", "retention", "pendular_limit"),
-    *("wet_in_blocks", "load_state", "read_packing", "write_packing", "packing_dataset"),
+    *("wet_in_blocks", "load_state", "read_packing", "write_packing", "write_mesh", "packing_dataset"),
     *("interpolate", "interpolate_rupture", "interpolation_error", "load_dataset", "make_dataset", "save_dataset"),
 }
 
