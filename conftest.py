@@ -27,6 +27,8 @@ PACKAGES = {
 # Files and folders that need one of them as a whole; a single test has the mark ``needs``.
 FILES = {
     "src/pendular/dataset": "data",
+    "src/pendular/packing/retention.py": "data",
+    "src/pendular/codes/grains/labelled.py": "data",
     "tests/test_dataset.py": "data",
     "src/pendular/codes/lammps/attach.py": "lammps",
     "tests/test_lammps.py": "lammps",

@@ -518,7 +518,11 @@ def test_bad_control_is_one_line_and_status_2(run, arguments, message):
     [
         (("bridge", *SUCTION), "separation: missing; write --separation 1um, or --half-filling-angle 30"),
         (("dataset",), "path: missing; zarr store to write, or to continue: bridges.zarr"),
-        (("dataset", "a.zarr", "--contact-angle", "200"), f"contact-angle: '200' {_NO_ANGLE}"),
+        pytest.param(
+            ("dataset", "a.zarr", "--contact-angle", "200"),
+            f"contact-angle: '200' {_NO_ANGLE}",
+            marks=pytest.mark.needs("data"),
+        ),
         (("export", "c", "--contact-angle", "200", "--out", "b.h"), f"contact-angle: '200' {_NO_ANGLE}"),
         (("export", "c", "--out", "b.h"), "contact-angle: missing; contact angle: 20 or 20deg, 0.35rad"),
         (("bridge", *AT_1_UM, "--suction", "1kPa"), "--radius"),

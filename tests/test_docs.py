@@ -36,7 +36,7 @@ ELSEWHERE = {
     "howto/gpu.md": "test_cuda.py",
 }
 OWN = [name for name in PAGES if name not in ELSEWHERE]
-GROUPS = {"lammps.md": "lammps", "howto/own_data.md": "data"}  # what their code needs
+GROUPS = {"lammps.md": "lammps", "howto/own_data.md": "data", "howto/mesh.md": "grains"}  # what their code needs
 LONG = ("lammps.md", "howto/packings.md", "theory/paper.md")
 
 
