@@ -11,16 +11,17 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
-from numba import get_num_threads, njit
+from numba import njit
 from scipy.interpolate import RegularGridInterpolator
 
 import pendular as pl
 from pendular.exact import batch as exact
 from pendular.exact.equations import SUCTION
-from pendular.ground.compile import in_chunks
+from pendular.ground.threads import thread_count
 from pendular.laws import willett2000, zhao2020
 
 PAGE = Path(__file__).parent.parent / "docs" / "speed.md"
@@ -83,6 +84,13 @@ def willett_range(theta, volume, gamma, separation, radius1, radius2, out, start
         kappa1, kappa2 = mean / radius1[i], mean / radius2[i]
         star = willett2000.force_star(gap, held, theta, theta, kappa1, kappa2)
         out[i] = 2.0 * math.pi * gamma * mean * star
+
+
+def in_chunks(function: Callable[..., None], count: int, chunk: int, *arguments: object) -> None:
+    """Run machine code over rows, by chunks that threads share, as the library does with its own."""
+    with ThreadPoolExecutor(thread_count()) as pool:
+        for _ in pool.map(lambda at: function(*arguments, at, min(count, at + chunk)), range(0, count, chunk)):
+            pass
 
 
 def median_ns(function: Callable[[], object], count: int) -> float:
@@ -248,7 +256,7 @@ def measure() -> str:
 
 Written by `python -m benchmarks.contacts`: {COUNT:.0e} random contacts with radii of 25 to 75 µm at a reduced
 suction of {REDUCED_SUCTION:g} (mean pair), contact angle {math.degrees(CONTACT_ANGLE):.0f}°, gaps from 0 to 1.1 of the
-mean rupture distance, seed {SEED}, {get_num_threads()} threads, medians of {ROUNDS} runs. The rival laws are compiled
+mean rupture distance, seed {SEED}, {thread_count()} threads, medians of {ROUNDS} runs. The rival laws are compiled
 by the same compiler; what depends on the contact angle alone is taken out of the paper's loop. The error is the largest
 one over the force at contact. Copying an array moved {bandwidth:.0f} GB/s in the same run; the fourth column is the
 share of that which a contact's {BYTES} bytes take.

@@ -117,6 +117,16 @@ def test_commands_for_contributors_can_be_run():
         assert all((ROOT / word).exists() for word in words if word.startswith("tests/")), line
 
 
+@pytest.mark.parametrize("path", sorted((ROOT / "benchmarks").glob("[a-z]*.py")), ids=lambda path: path.stem)
+def test_benchmarks_import_what_is_there(path):
+    try:
+        importlib.import_module(f"benchmarks.{path.stem}")
+    except ModuleNotFoundError as error:
+        if error.name is None or error.name.startswith("pendular"):
+            raise
+        pytest.skip(f"{error.name} is not installed")
+
+
 def test_files_named_to_contributors_exist():
     text = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
     for name in re.findall(r"`((?:src|tests|docs|tools)/[\w/.]+)`", text):
