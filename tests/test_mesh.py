@@ -9,6 +9,7 @@ import math
 import re
 import shutil
 import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -158,6 +159,13 @@ def test_the_command_refuses_in_one_line(options, message, tmp_path, monkeypatch
         main(["bridge", "--radius", "50um", "--volume", "50pL", *options])
     assert (left.value.code, capsys.readouterr().err) == (2, message)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_library_that_is_not_there_is_named(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "meshio", None)
+    message = "path: for .stl it takes the package meshio: pip install 'pendular[grains]'"
+    with pytest.raises(ValueError, match=f"^{re.escape(message)}"):
+        pl.write_mesh(tmp_path / "b.stl", STATES["unequal spheres"][0], bridge_of("unequal spheres"))
 
 
 def evolved(path):

@@ -78,8 +78,11 @@ def write_mesh(path: Any, pair: Pair, bridge: Bridge, around: int = 96) -> None:
 
 
 def _by_meshio(file: Path, mesh: Mesh) -> None:
-    meshio = optional("meshio")
     suffix = file.suffix.lower()
+    try:
+        meshio = optional("meshio")
+    except ValueError as error:
+        raise ValueError(f"path: for {suffix} {error}") from error
     names = {"surface": [mesh.surface]} if suffix == ".vtu" else None  # the others hold shapes alone
     record = meshio.Mesh(mesh.points, [("triangle", mesh.triangles.astype(np.int32))], cell_data=names)
     with whole(file) as draft:
