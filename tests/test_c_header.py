@@ -54,18 +54,6 @@ def call(suction_table, tmp_path_factory):
     return compiled(c_header(suction_table), tmp_path_factory.mktemp("c"), FUNCTIONS["suction"])
 
 
-@pytest.fixture
-def run(capsys):
-    """Run the command in this process; returns its exit status, output and errors."""
-
-    def run_with(*arguments) -> tuple[int, str, str]:
-        with pytest.raises(SystemExit) as end:
-            main([*map(str, arguments)])
-        return (end.value.code, *capsys.readouterr())
-
-    return run_with
-
-
 def asked_of(table, name, contact):
     return getattr(table, name)(*(contact[1:] if name == "rupture_distance" else contact))
 

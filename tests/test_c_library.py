@@ -379,18 +379,6 @@ def test_the_code_of_the_page_runs(written, library, tmp_path):
 # The command -------------------------------------------------------------------------------------------------------
 
 
-@pytest.fixture
-def run(capsys):
-    """Run the command in this process; returns its exit status, output and errors."""
-
-    def run_with(*arguments) -> tuple[int, str, str]:
-        with pytest.raises(SystemExit) as end:
-            main([*map(str, arguments)])
-        return (end.value.code, *capsys.readouterr())
-
-    return run_with
-
-
 def test_the_command_tells_what_it_wrote(written, run, tmp_path):
     code, told, _ = run("export", "library", "--out", tmp_path / "new" / "lib")
     assert code == 0

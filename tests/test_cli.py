@@ -16,7 +16,7 @@ from typer.main import get_command
 
 import pendular as pl
 from pendular.ask.face import FIELDS
-from pendular.front.cli import app, main
+from pendular.front.cli import app
 
 GRAINS = ("--radius", "50um", "--contact-angle", "20")
 SUCTION = (*GRAINS, "--suction", "20kPa")
@@ -25,18 +25,6 @@ STATE = ("bridge", *SUCTION, "--separation", "1um")
 
 WATER = pl.Liquid.water()
 PAIR = pl.Pair(radius=50e-6, contact_angle=math.radians(20))
-
-
-@pytest.fixture
-def run(capsys):
-    """Run the command in this process; returns its exit status, output and errors."""
-
-    def run_with(*arguments: str) -> tuple[int, str, str]:
-        with pytest.raises(SystemExit) as end:
-            main(arguments)
-        return (end.value.code, *capsys.readouterr())
-
-    return run_with
 
 
 @pytest.fixture

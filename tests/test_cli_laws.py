@@ -10,25 +10,12 @@ import numpy as np
 import pytest
 
 import pendular as pl
-from pendular.front.cli import main
 from pendular.laws import laws
 
 GRAINS = ("compare", "--radius", "50um", "--contact-angle", "20", "--volume", "1pL")
 RANKED = ("compare", "--recommend", "--reduced-suction", "10", "1e4", "--contact-angle-range", "0", "40")
 WATER = pl.Liquid.water()
 PAIR = pl.Pair(50e-6, np.radians(20.0))
-
-
-@pytest.fixture
-def run(capsys):
-    """Run the command in this process; returns its exit status, output and errors."""
-
-    def run_with(*arguments):
-        with pytest.raises(SystemExit) as end:
-            main(arguments)
-        return (end.value.code, *capsys.readouterr())
-
-    return run_with
 
 
 @pytest.fixture

@@ -288,12 +288,11 @@ def test_the_command_takes_a_law_of_a_file(record, tmp_path, capsys):
         ("", "none.py:LAW", "law: 'none.py' cannot be read: No such file or directory"),
     ],
 )
-def test_the_command_refuses_in_one_line(source, place, message, tmp_path, monkeypatch, capsys):
+def test_the_command_refuses_in_one_line(source, place, message, tmp_path, monkeypatch, run):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "smith.py").write_text(source, encoding="utf-8")
-    with pytest.raises(SystemExit) as left:
-        main(["compare", *GRAINS, "--law", place])
-    assert (left.value.code, capsys.readouterr().err) == (2, f"pendular: {message}\n")
+    status, _, errors = run("compare", *GRAINS, "--law", place)
+    assert (status, errors) == (2, f"pendular: {message}\n")
 
 
 # -- in a process of its own -------------------------------------------------------------------------------------------

@@ -16,7 +16,6 @@ import pytest
 
 import pendular as pl
 from pendular.ask.mesh import SURFACES
-from pendular.front.cli import main
 
 UNIT = pl.Liquid(surface_tension=1.0)
 STATES = {
@@ -133,12 +132,11 @@ def test_files_hold_the_same_surfaces(tmp_path, suffix):
 
 
 @pytest.mark.needs("grains")
-def test_the_command_writes_a_mesh(tmp_path, capsys):
-    asked = ["bridge", "--radius", "50um", "--volume", "50pL", "--separation", "2um", "--mesh"]
-    with pytest.raises(SystemExit) as left:
-        main([*asked, str(tmp_path / "b.stl")])
-    assert left.value.code == 0
-    assert capsys.readouterr().out.endswith(f"\nmesh: {tmp_path / 'b.stl'}\n")
+def test_the_command_writes_a_mesh(tmp_path, run):
+    asked = ("bridge", "--radius", "50um", "--volume", "50pL", "--separation", "2um", "--mesh")
+    status, output, _ = run(*asked, tmp_path / "b.stl")
+    assert status == 0
+    assert output.endswith(f"\nmesh: {tmp_path / 'b.stl'}\n")
     assert (tmp_path / "b.stl").stat().st_size > 1e5
 
 
@@ -153,11 +151,10 @@ def test_the_command_writes_a_mesh(tmp_path, capsys):
         ),
     ],
 )
-def test_the_command_refuses_in_one_line(options, message, tmp_path, monkeypatch, capsys):
+def test_the_command_refuses_in_one_line(options, message, tmp_path, monkeypatch, run):
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(SystemExit) as left:
-        main(["bridge", "--radius", "50um", "--volume", "50pL", *options])
-    assert (left.value.code, capsys.readouterr().err) == (2, message)
+    status, _, errors = run("bridge", "--radius", "50um", "--volume", "50pL", *options)
+    assert (status, errors) == (2, message)
     assert list(tmp_path.iterdir()) == []
 
 

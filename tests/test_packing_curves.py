@@ -1,12 +1,12 @@
 """Retention curves of a heap, their command and their pictures."""
 
 import json
+from functools import partial
 
 import numpy as np
 import pytest
 
 import pendular as pl
-from pendular.front.cli import main
 from pendular.packing.blocks import wet_in_blocks
 from pendular.packing.pictures import draw_heap
 from pendular.packing.rendering import image_of, view_of
@@ -78,13 +78,9 @@ def test_bad_suctions_are_refused():
 
 
 @pytest.fixture
-def run(capsys):
-    def run_with(*arguments):
-        with pytest.raises(SystemExit) as end:
-            main(["packing", *arguments])
-        return (end.value.code, *capsys.readouterr())
-
-    return run_with
+def run(run):
+    """Run `pendular packing`."""
+    return partial(run, "packing")
 
 
 def test_the_command_tells_a_state(run):

@@ -18,7 +18,6 @@ from benchmarks.c_header import CPP, WARNINGS, C, contacts, has_compiler
 
 import pendular as pl
 from pendular.codes.c_header import table_header
-from pendular.front.cli import main
 from pendular.table import binary, kernels, storage
 from pendular.table.channels import known
 
@@ -120,18 +119,6 @@ class Reader:
 @pytest.fixture(scope="module")
 def reader(tmp_path_factory):
     return Reader(tmp_path_factory.mktemp("c"))
-
-
-@pytest.fixture
-def run(capsys):
-    """Run the command in this process; returns its exit status, output and errors."""
-
-    def run_with(*arguments) -> tuple[int, str, str]:
-        with pytest.raises(SystemExit) as end:
-            main([*map(str, arguments)])
-        return (end.value.code, *capsys.readouterr())
-
-    return run_with
 
 
 def sealed(content: bytes) -> bytes:

@@ -16,7 +16,6 @@ import pendular as pl
 from pendular.codes import yade
 from pendular.codes.yade import reader
 from pendular.codes.yade.files import POINT_COLUMNS, parse_table
-from pendular.front.cli import main
 
 THETA = math.radians(20)
 COARSE = {"tolerance": 0.02, "reduced_suction": 100.0}
@@ -28,18 +27,6 @@ def folder(tmp_path_factory):
     path = tmp_path_factory.mktemp("tables")
     yade.export(path, THETA, suffix="_th20", **COARSE)
     return path
-
-
-@pytest.fixture
-def run(capsys):
-    """Run the command in this process; returns its exit status, output and errors."""
-
-    def run_with(*arguments) -> tuple[int, str, str]:
-        with pytest.raises(SystemExit) as end:
-            main([*map(str, arguments)])
-        return (end.value.code, *capsys.readouterr())
-
-    return run_with
 
 
 def small_table(ratio=1.0, gaps=(0.0, 0.1, 0.3), suctions=((0, 1, 4), (0, 1, 2), (0, 0.5)), seed=1):
