@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["SURFACES", "Mesh", "meniscus_rings", "turned"]
+__all__ = ["SHOWN_OF_A_PLANE", "SURFACES", "Mesh", "meniscus_rings", "turned"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -15,7 +15,7 @@ SURFACES = ("liquid_gas", "wetted1", "wetted2", "dry1", "dry2")
 _LIQUID_GAS, _WETTED1, _WETTED2, _DRY1, _DRY2 = range(5)
 
 _MOST = 1000  # strips of the meniscus
-_EDGE = 4.0  # radius of the part of a plane that is shown, over the contact radius
+SHOWN_OF_A_PLANE = 4.0  # radius, over the contact radius
 
 
 class Mesh(NamedTuple):
@@ -80,7 +80,7 @@ def _outlines(radius: float, filling: float, contact: float, around: int) -> tup
     shares = np.linspace(0.0, 1.0, around // 6, endpoint=False)
     if math.isinf(radius):
         within = contact * shares
-        without = contact * np.exp(_steps(0.0, math.log(_EDGE), around))
+        without = contact * np.exp(_steps(0.0, math.log(SHOWN_OF_A_PLANE), around))
         return np.stack([np.zeros_like(within), within]), np.stack([np.zeros_like(without), without])
     within = filling * shares
     # in ln tan(δ/2) triangles are as high as wide, at any distance from the poles

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ..exact.batch import lay
 from ..ground.check import in_range, whole_number
-from .mesh import Mesh, meniscus_rings, turned
+from .mesh import SHOWN_OF_A_PLANE, Mesh, meniscus_rings, turned
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -88,7 +88,7 @@ class Bridge:
         with np.errstate(invalid="ignore"):
             sagitta = 2.0 * self._solid_radius * np.sin(0.5 * self.half_filling_angle) ** 2
         x = x - np.where(np.isinf(self._solid_radius), 0.0, sagitta)[..., :1]
-        solid_x, solid_y = _outlines(self._solid_radius, 4.0 * self.contact_radius.max(axis=-1), count)
+        solid_x, solid_y = _outlines(self._solid_radius, SHOWN_OF_A_PLANE * self.contact_radius.max(axis=-1), count)
         solid_x[..., 1, :] = np.asarray(self.separation)[..., None] - solid_x[..., 1, :]
         return Profile(x, y, solid_x, solid_y)
 

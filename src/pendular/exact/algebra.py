@@ -40,6 +40,12 @@ def largest(a: Four) -> float:
 
 
 @kernel
+def distance(a: Four, b: Four) -> float:
+    """Largest difference of the components."""
+    return largest(Four(a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]))
+
+
+@kernel
 def moved(start: Four, step: float, direction: Four) -> Four:
     """Return start + step·direction."""
     return Four(

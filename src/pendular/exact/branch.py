@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from ..ground.compile import kernel
 from ..ground.rows import Own, entry, over_rows
-from .algebra import Four, largest
-from .ends import before_end, has_stalled, quick_end, stable_bridge, upper_end
+from .algebra import Four, distance
+from .ends import NEAR, before_end, has_stalled, quick_end, stable_bridge, upper_end
 from .equations import SUCTION, Held, curvature_of, force_of, system_at
 from .follow import BRANCH_ENDS, Nodes, Walk, recorded
 from .locate import ARRIVED, FOLD, PITCHFORK
@@ -29,7 +29,6 @@ Vector = NDArray[np.float64]
 Rows = NDArray[np.float64]
 
 _MOST_STEPS = 6
-_NEAR = 0.25  # largest miss of a foretold bridge, over its way from the last one
 
 
 @kernel
@@ -86,7 +85,7 @@ def _walked(first: int, walk: Walk, q: Vector, stretch: float, values: Rows, nod
         z, is_met = newton_to(guess, separation, held, _MOST_STEPS)
         is_met = is_met or has_stalled(z, separation, held)
         last = end if i == 0 else recorded(nodes, i - 1)
-        if not (is_met and _distance(z, guess) < _NEAR * _distance(guess, last) and _is_stable(z, held)):
+        if not (is_met and distance(z, guess) < NEAR * distance(guess, last) and _is_stable(z, held)):
             return i
         _fill(i, z, held, values, nodes)
     return q.size
@@ -122,11 +121,6 @@ def fill_branch(task: Task, q: Vector, stretch: float, values: Rows, nodes: Node
         _fill(i, sought.stance.z, held_of(task), values, nodes)
         i += 1
     return rupture
-
-
-@kernel
-def _distance(a: Four, b: Four) -> float:
-    return largest(Four(a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]))
 
 
 @kernel

@@ -9,7 +9,7 @@ import math
 from typing import NamedTuple
 
 from ..ground.compile import kernel
-from .algebra import Four, dot, largest, minors, moved, normal, scaled, solve4, unit_vector
+from .algebra import Four, distance, dot, largest, minors, moved, normal, scaled, solve4, unit_vector
 from .curve import Curve, Stance, corrected, set_out, stance_at, stance_of, with_unstable
 from .equations import SUCTION, Held, first_row, held_row, system_at
 from .follow import BRANCH_ENDS, FOLDS, NOTHING, Nodes, Walk, back_from, beyond, follow
@@ -30,7 +30,7 @@ _FLAT = 1e-7  # where the signs of the ladder are those of rounding errors
 _THERE = 1e-13  # miss of a separation, over ℓ, that is none
 _SETTLED = 1e-13  # miss of the equations of a bridge that rounding leaves
 _BACK = 1e-3  # way from the end of a branch that tells how the separation falls
-_NEAR = 0.25  # largest miss of a foretold bridge, over its way from the end
+NEAR = 0.25  # largest miss of a foretold bridge, over its way from the last that is known
 _NOWHERE = Four(0.0, 0.0, 0.0, 0.0)
 
 
@@ -193,15 +193,10 @@ def just_before(walk: Walk, separation: float) -> tuple[Stance, bool]:
     """The stable bridge at a separation next to the end of a branch, and whether it was found."""
     guess = before_end(walk, separation)
     z, is_met = newton_to(guess, separation, walk.curve.held, _MOST_STEPS)
-    way, miss = _between(guess, walk.stance.z), _between(z, guess)
+    way, miss = distance(guess, walk.stance.z), distance(z, guess)
     stance = stance_at(z, walk.curve)
     is_met = is_met or has_stalled(z, separation, walk.curve.held)
-    return stance, is_met and miss < _NEAR * way and stance.unstable == 0 and stance.opening > 0.0
-
-
-@kernel
-def _between(a: Four, b: Four) -> float:
-    return largest(Four(a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]))
+    return stance, is_met and miss < NEAR * way and stance.unstable == 0 and stance.opening > 0.0
 
 
 @kernel
