@@ -17,6 +17,7 @@ nox.options.sessions = ["quick", "lint", "types", "imports"]
 PROJECT = tomllib.loads(Path("pyproject.toml").read_text(encoding="utf-8"))
 VERSIONS = ("3.11", "3.12", "3.13", "3.14")
 ON_ALL_CORES = ("-n", "auto")
+WITHOUT_NUMBA = [line for line in PROJECT["project"]["dependencies"] if not line.startswith("numba")]
 
 # Kernels, laws and first answers: what has to be the same where Numba cannot be had.
 PLAIN = (
@@ -27,6 +28,15 @@ PLAIN = (
     "tests/test_laws.py",
     "tests/test_plain_laws.py",
     "tests/test_two_planes.py",
+)
+
+# What machine code answers, in a wheel that has it.
+MACHINE = (
+    "tests/test_packaged.py",
+    "tests/test_identities.py",
+    "tests/test_hard_cases.py",
+    "tests/test_table.py",
+    "tests/test_packing.py",
 )
 
 
@@ -81,13 +91,24 @@ def site(session: nox.Session) -> None:
 @nox.session(venv_backend="uv")
 def without_numba(session: nox.Session) -> None:
     """Kernels, laws and first answers in plain Python, where neither Numba nor llvmlite is installed."""
-    others = [line for line in PROJECT["project"]["dependencies"] if not line.startswith("numba")]
-    session.install(*others, *PROJECT["dependency-groups"]["test"])
+    session.install(*WITHOUT_NUMBA, *PROJECT["dependency-groups"]["test"])
     session.install("--no-deps", "--editable", ".")
     session.run(
         "python", "-c", "from importlib.util import find_spec as f; assert not f('numba') and not f('llvmlite')"
     )
     session.run("pytest", *ON_ALL_CORES, "-m", "not long", *(session.posargs or PLAIN))
+
+
+@nox.session(venv_backend="uv")
+def wheel(session: nox.Session) -> None:
+    """A wheel with machine code, and the source that it is built from, without Numba: kernels, tables and heaps."""
+    made = Path(session.create_tmp())
+    session.run("uv", "build", "--quiet", "--out-dir", made, env={"PENDULAR_MACHINE_CODE": "1"}, external=True)
+    (file,) = made.glob("*.whl")
+    session.log(f"{file.name}: {file.stat().st_size / 1e6:.2f} MB")
+    session.install(*WITHOUT_NUMBA, *PROJECT["dependency-groups"]["test"])
+    session.install("--no-deps", "--reinstall", str(file))
+    session.run("pytest", *ON_ALL_CORES, "-m", "not long", *(session.posargs or MACHINE))
 
 
 @nox.session(venv_backend="uv", python=VERSIONS)

@@ -1,7 +1,9 @@
 """What a first answer costs: processor seconds of whole processes, with empty caches and again.
 
-A cold process finds no machine code of this package, none of Numba and no caches of a user: it is a container, a node
-of a cluster, a run of CI. ``python -m benchmarks.first_answers`` writes docs/first_answers.md; names after it choose.
+A cold process finds no caches of a user: it is a container, a node of a cluster, a run of CI. It is measured with the
+machine code that a wheel brings along, and without it, as an installation from the source has none.
+``python -m benchmarks.first_answers`` writes docs/first_answers.md; names after it choose. It needs an environment of
+such a wheel (``nox -s wheel`` builds one): ``pip install "pendular-...-py3-none-....whl[web]"``.
 """
 
 import os
@@ -15,10 +17,13 @@ import tempfile
 import threading
 import time
 import urllib.request
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from importlib.metadata import version
 from pathlib import Path
 from typing import NamedTuple
+
+from pendular.ground import packaged
 
 PAGE = Path(__file__).parent.parent / "docs" / "first_answers.md"
 ROUNDS = 3  # cold, and warm; of what takes long, one
@@ -148,14 +153,39 @@ def end_when_answered(process: subprocess.Popen[bytes], port: int) -> None:
     process.terminate()
 
 
-def medians(measure: Callable[[Path], float], ready: Path) -> tuple[float, float]:
-    """Medians of a figure with empty caches, and with all machine code made ahead; one of each of what takes long."""
-    found: list[list[float]] = [[], []]
-    for figures, caches in zip(found, (None, ready), strict=True):
-        while len(figures) < (ROUNDS if not figures or figures[0] < LONG else 1):
-            with tempfile.TemporaryDirectory() as empty:
-                figures.append(measure(caches or Path(empty)))
-    return statistics.median(found[0]), statistics.median(found[1])
+class Found(NamedTuple):
+    """A figure with empty caches, of a wheel with machine code and without it, and with all of it made here."""
+
+    wheel: float
+    source: float
+    warm: float
+
+
+def medians(measure: Callable[[Path], float], ready: Path) -> Found:
+    """Medians of a figure; one of each of what takes long."""
+    wheel = median_of(measure, None)
+    with without_machine_code():
+        return Found(wheel, median_of(measure, None), median_of(measure, ready))
+
+
+def median_of(measure: Callable[[Path], float], caches: Path | None) -> float:
+    """Median of a figure, with empty caches where none are given."""
+    figures: list[float] = []
+    while len(figures) < (ROUNDS if not figures or figures[0] < LONG else 1):
+        with tempfile.TemporaryDirectory() as empty:
+            figures.append(measure(caches or Path(empty)))
+    return statistics.median(figures)
+
+
+@contextmanager
+def without_machine_code() -> Iterator[None]:
+    """Put the machine code of the package aside, as if it were installed from its source."""
+    aside = packaged.FILE.with_suffix(".aside")
+    packaged.FILE.rename(aside)
+    try:
+        yield
+    finally:
+        aside.rename(packaged.FILE)
 
 
 def time_of(arguments: tuple[str, ...]) -> Callable[[Path], float]:
@@ -168,7 +198,7 @@ def time_of(arguments: tuple[str, ...]) -> Callable[[Path], float]:
     return measure
 
 
-def of_call(call: str, ready: Path) -> tuple[float, float]:
+def of_call(call: str, ready: Path) -> Found:
     """Time of a scalar call in Python, with no machine code there and with it loaded, [ms]."""
 
     def answers(caches: Path) -> tuple[float, float]:
@@ -181,16 +211,16 @@ def of_call(call: str, ready: Path) -> tuple[float, float]:
     return medians(lambda caches: answers(caches)[0 if caches != ready else 1], ready)
 
 
-def row(name: str, cold: float, warm: float, goals: tuple[float, float], floor: float = 0.0, unit: str = "s") -> str:
-    """A line of the table, with what meets its goal and what does not; a floor is what every process takes."""
+def row(name: str, found: Found, goals: tuple[float, float], unit: str = "s") -> str:
+    """A line of the table, with what meets its goal and what does not."""
     digits = 2 if unit == "s" else 3
 
     def shown(value: float, goal: float) -> str:
-        mark = "" if value <= goal else " ✗"
-        return f"{value:.{digits}f} {unit}{mark} | {goal:g} {unit}"
+        return f"{value:.{digits}f} {unit}{'' if value <= goal else ' ✗'}"
 
-    above = f"{cold - floor:.2f} s" if unit == "s" else ""
-    return f"| {name} | {shown(cold, goals[0])} | {shown(warm, goals[1])} | {above} |"
+    cold, warm = goals
+    cells = shown(found.wheel, cold), shown(found.source, cold), f"{cold:g} {unit}", shown(found.warm, warm)
+    return f"| {name} | {' | '.join(cells)} | {warm:g} {unit} |"
 
 
 def processor() -> str:
@@ -204,7 +234,6 @@ def page(chosen: list[str]) -> str:
     """Measure, and write the page."""
     with tempfile.TemporaryDirectory() as empty:
         floors = [seconds(("-c", "pass"), Path(empty), Path(empty)) for _ in range(2 * ROUNDS + 1)]
-    floor = statistics.median(floors)
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         ready = Path(folder)
@@ -212,33 +241,34 @@ def page(chosen: list[str]) -> str:
         for question in QUESTIONS:
             if not chosen or any(part in question.name for part in chosen):
                 found = medians(time_of(question.arguments), ready)
-                rows.append(row(question.name, *found, (question.cold, question.warm), floor))
+                rows.append(row(question.name, found, (question.cold, question.warm)))
                 sys.stderr.write(rows[-1] + "\n")
         for name, call in CALLS.items():
             if not chosen or "call" in chosen:
-                goals = (GOALS["call cold"], GOALS["call warm"])
-                rows.append(row(name, *of_call(call, ready), goals, unit="ms"))
+                rows.append(row(name, of_call(call, ready), (GOALS["call cold"], GOALS["call warm"]), unit="ms"))
     versions = ", ".join(f"{name} {version(name.lower())}" for name in ("NumPy", "Numba", "Matplotlib"))
     return f"""# What a first answer costs
 
 Written by `python -m benchmarks.first_answers`: processor seconds of the whole process, all its threads, on
 {processor()}, {platform.system()}, Python {platform.python_version()}, {versions}. *Cold* is
-a process that finds no machine code and no other cache of a user, as in a fresh container, on a node of a cluster or
-in CI; the byte code of Python is there, as an installation leaves it. *Warm* is a process that finds all machine code,
-made by `pendular compile` in {compiling:.0f} s. Medians of {ROUNDS}; of what takes more than {LONG:g} s, one run.
-`python -c pass` takes {floor:.3f} s here; the last column is what a cold process takes beyond it.
-A ✗ marks what misses its goal.
+a process that finds no cache of a user, as in a fresh container, on a node of a cluster or in CI; the byte code of
+Python is there, as an installation leaves it.
+A wheel can [bring machine code along](howto/compile_ahead.md#in-a-wheel); an installation
+from the source makes it when it first pays. *Warm* is a process that finds machine code made by
+`pendular compile`, in {compiling:.0f} s, for this very processor. Medians of {ROUNDS}; of what takes more than
+{LONG:g} s, one run. `python -c pass` takes {statistics.median(floors):.3f} s here. A ✗ marks what misses its goal.
 
-| | cold | goal | warm | goal | cold, beyond `pass` |
+| | cold, from a wheel with machine code | cold, from the source | goal | warm | goal |
 |---|---:|---:|---:|---:|---:|
 {chr(10).join(rows)}
 
-A few questions are answered in plain Python, by the kernels as they stand, and compile nothing. Many are answered by
-machine code, which is made once on a machine, or [ahead of time](howto/compile_ahead.md).
+A few questions are answered in plain Python, by the kernels as they stand, and compile nothing.
 """
 
 
 if __name__ == "__main__":
+    if not packaged.FILE.exists():
+        sys.exit("first_answers: needs an installation with machine code: PENDULAR_MACHINE_CODE=1 uv build --wheel")
     text = page(sys.argv[1:])
     sys.stdout.write(text)
     if not sys.argv[1:]:

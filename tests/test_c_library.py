@@ -389,7 +389,7 @@ def test_the_command_tells_what_it_wrote(written, run, tmp_path):
 
 
 def test_without_a_c_compiler_all_but_the_shared_library_is_written(written, run, tmp_path, monkeypatch):
-    monkeypatch.setattr("pendular.codes.library.write.shutil.which", lambda name: None)
+    monkeypatch.setattr("pendular.ground.linking.shutil.which", lambda name: None)
     code, told, _ = run("export", "library", "--out", tmp_path)
     assert code == 0
     assert sorted(path.name for path in tmp_path.iterdir()) == ["libpendular.a", "pendular.h"]
@@ -406,7 +406,7 @@ def test_a_linker_that_fails_and_a_folder_that_is_none_are_told_in_one_line(writ
     linker = tmp_path / "cc"
     linker.write_text("#!/bin/sh\necho 'something' >&2\necho 'no such library' >&2\nexit 1\n")
     linker.chmod(0o755)
-    monkeypatch.setattr("pendular.codes.library.write.shutil.which", lambda name: str(linker))
+    monkeypatch.setattr("pendular.ground.linking.shutil.which", lambda name: str(linker))
     code, told, error = run("export", "library", "--out", tmp_path / "lib")
     assert (code, told) == (2, "")
     assert error == f"pendular: library: {linker} cannot link libpendular.so: no such library\n"

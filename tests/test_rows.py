@@ -17,7 +17,7 @@ from pendular.exact.guess import guess_at
 from pendular.exact.newton import newton_to
 from pendular.exact.solids import solid_of
 from pendular.exact.state import State
-from pendular.ground import native, rows, stamp
+from pendular.ground import calling, native, rows, stamp
 
 SEED = 20261129
 COMPILER = pytest.mark.needs("numba")
@@ -218,7 +218,7 @@ print(*islice(compile_ahead(), 2))
         for _ in range(2)
     ]
     assert [process.stdout.split() for process in done] == [["bridges", "and", "rupture", "curves"]] * 2
-    assert sorted(path.name.partition("-")[0] for path in tmp_path.glob("*.o")) == [
+    assert sorted(path.stem.rpartition("_")[0] for path in tmp_path.glob("*.o")) == [
         "bridge_range",
         "curve_range",
         "end_range",
@@ -236,12 +236,12 @@ import numpy as np
 from pendular.ground import native, rows
 from own import double
 
-compiled = native._compiled
+compiled = native.object_of
 def told(*question):
     with open(Path(__file__).with_name("compiled"), "a") as file:
         file.write("x")
     return compiled(*question)
-native._compiled = told
+native.object_of = told
 out = np.zeros(3)
 loads = native.load(double, (np.array([1.0, 2.0, 3.0]), out, 0, 3)) is not None
 with rows.by_machine_code():
@@ -295,9 +295,9 @@ def finished(process):
 @pytest.fixture
 def again(small, monkeypatch):
     """Run the script in this process, as if it were a new one: nothing of it is remembered but what is on disk."""
-    remembered = stamp.stamp_of, stamp._sources_of
+    remembered = stamp.stamp_of, stamp.source_stamp, stamp._sources_of
     monkeypatch.setattr(native, "folder", lambda: small / "kept")
-    monkeypatch.setattr(native, "_compiled", native._compiled)  # the script puts its own in its place
+    monkeypatch.setattr(native, "object_of", native.object_of)  # the script puts its own in its place
     monkeypatch.setattr(rows, "ENTRIES", [])
     monkeypatch.setattr(sys, "dont_write_bytecode", True)
     monkeypatch.syspath_prepend(small)
@@ -351,7 +351,7 @@ def test_of_processes_that_start_at_once_one_compiles(small):
 def test_types_are_told_apart():
     row = np.zeros((3, 4))
     kinds = [row, row[:, ::2], row[0], row.astype(np.int8), 1, 1.0, True, (row, 1), np.broadcast_to(0.0, 3)]
-    assert len({native._types_of((kind,)) for kind in kinds}) == len(kinds)
+    assert len({calling.types_of((kind,)) for kind in kinds}) == len(kinds)
 
 
 @COMPILER

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 from . import native
+from .objects import context_of_files, unlinked
 
 __all__ = ["Array", "Constant", "Count", "Function", "Integer", "Real", "linkable", "processor"]
 
@@ -64,12 +65,12 @@ def processor() -> str:
 def _compiled(functions: Sequence[Function], failed: int) -> bytes:
     from numba.core.compiler_lock import global_compiler_lock
 
-    context = native.context_of_files()
+    context = context_of_files()
     library = context.codegen().create_library("functions of C")
     module = context.create_module("functions of C")
     with global_compiler_lock:
         for function in functions:
-            dispatcher = native.unlinked(function.kernel)
+            dispatcher = unlinked(function.kernel)
             signature = tuple(_type_of(argument) for argument in function.arguments if not isinstance(argument, Count))
             dispatcher.compile(signature)
             result = dispatcher.overloads[signature]
@@ -77,7 +78,7 @@ def _compiled(functions: Sequence[Function], failed: int) -> bytes:
             _write(context, module, function, result.fndesc, failed)
         library.add_ir_module(module)
         library.finalize()
-        library.hide_all_but({function.name for function in functions})
+        library.hide_all_but({function.name: function.name for function in functions})
         code: bytes = library.emit_native_object()
     return code
 

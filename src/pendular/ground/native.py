@@ -1,63 +1,74 @@
-"""Machine code of kernels ahead of time: object files on disk, loaded without Numba in milliseconds.
+"""Machine code of kernels: that of the package, else object files in a folder of the user, loaded in milliseconds.
 
-Numba compiles a kernel for the types of its arguments to an object file, which llvmlite's linker loads. The kernel is
-called as compiled code of Numba calls it: a status comes back, and arguments are laid out flat: numbers as they are, an
-array as its owner (none), size, address, shape and strides, a tuple as its members. The file is made by the Numba that
-is installed, so that both agree on this; its name has a stamp of all that enters it, and its content one of itself.
+An object file is made by Numba for the processor that runs it, and loaded by llvmlite's linker without Numba. Its name
+has a stamp of all that enters it, and its content one of itself.
 """
 
-import ctypes
 import gc
 import hashlib
-import json
 import os
 import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, ExitStack, contextmanager, suppress
 from functools import cache
-from numbers import Integral
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from .compile import fastmath_of, rebound
+from . import packaged
+from .calling import Native, caller, types_of
+from .compile import has_compiler
 from .files import alone, whole
+from .objects import HOST, object_of
 from .stamp import stamp_of
 
-__all__ = ["build", "context_of_files", "folder", "kept", "load", "made", "notices", "unlinked"]
-
-Native = Callable[..., None]
+__all__ = ["build", "folder", "for_the_package", "kept", "load", "load_own", "made", "notices"]
 
 notices: list[Callable[[], AbstractContextManager[Any]]] = []  # what tells whoever waits while a kernel is compiled
 
 _LOCKS = "building.lock"  # in the folder of machine code
 _PATIENCE = 300.0  # with another process that compiles the same, [s]
 _SEAL = hashlib.sha256().digest_size
-_ANSWERS = (ctypes.c_void_p, ctypes.c_void_p)
 _loaded: dict[tuple[Callable[..., None], str], Native] = {}  # by kernel and types
 _building = threading.Lock()  # threads of a process compile one after the other in any case
-_NUMBERS = {bool: ctypes.c_int8, float: ctypes.c_double, Integral: ctypes.c_int64}
+_for_the_package: list[dict[str, bytes]] = []  # what is made for it, by name, while none is made for this processor
 
 
 def load(function: Callable[..., None], arguments: tuple[Any, ...]) -> Native | None:
-    """Machine code of a kernel that returns nothing, for arguments of these types, None if there is no whole file."""
-    kind = function, _types_of(arguments)
+    """Machine code of a kernel that returns nothing, for arguments of these types, None if there is none.
+
+    What was made for this processor comes before what the package has for all of its kind.
+    """
+    kind = function, types_of(arguments)
+    if (own := load_own(function, arguments)) is not None:
+        return own
+    if (code := packaged.load(*kind)) is not None:
+        _loaded[kind] = code
+    return code
+
+
+def load_own(function: Callable[..., None], arguments: tuple[Any, ...]) -> Native | None:
+    """Machine code of a kernel that was made here, None if there is no whole file."""
+    kind = function, types_of(arguments)
     if kind not in _loaded:
-        content = kept(*kind)
+        content = _kept_here(*kind)
         if content is None:
             return None
-        _loaded[kind] = _linked(content)
+        _loaded[kind] = _linked(_name_of(*kind), content)
     return _loaded[kind]
 
 
 def build(function: Callable[..., None], arguments: tuple[Any, ...]) -> Native:
     """Compile a kernel for arguments of these types, keep its machine code where that can be done, and load it."""
-    kind = function, _types_of(arguments)
-    content = made(*kind, lambda: _compiled(function, arguments))
+    kind = function, types_of(arguments)
+    if _for_the_package:
+        name = packaged.name_of(*kind)
+        content = _for_the_package[-1][name] = object_of(function, arguments, name, packaged.PROCESSOR)
+    else:
+        name = _name_of(*kind)
+        content = made(*kind, lambda: object_of(function, arguments, name, HOST))
     if kind not in _loaded:
-        _loaded[kind] = _linked(content)
+        _loaded[kind] = _linked(name, content)
     return _loaded[kind]
 
 
@@ -81,6 +92,16 @@ def made(function: Callable[..., Any], types: str, compile: Callable[[], bytes])
     return content
 
 
+@contextmanager
+def for_the_package() -> Iterator[dict[str, bytes]]:
+    """Make all machine code for the processor of the package, and collect it by the names that it has there."""
+    _for_the_package.append({})
+    try:
+        yield _for_the_package[-1]
+    finally:
+        _for_the_package.pop()
+
+
 # -- the file --------------------------------------------------------------------------------------------------------
 
 
@@ -94,10 +115,22 @@ def kept(function: Callable[..., Any], types: str) -> bytes | None:
     return content if hashlib.sha256(content).digest() == digest else None
 
 
+def _kept_here(function: Callable[..., None], types: str) -> bytes | None:
+    """What was made of a kernel, if anything was: to find the name of a file takes a tenth of a second."""
+    if _for_the_package or not has_compiler() or not any(folder().glob(f"{function.__name__}_*.o")):
+        return None
+    return kept(function, types)
+
+
 def _path_of(function: Callable[..., Any], types: str) -> Path:
-    source = Path(function.__code__.co_filename)
-    key = hashlib.sha256(f"{stamp_of(source)} {_processor()} {function.__module__} {types}".encode()).hexdigest()
-    return folder() / f"{function.__name__}-{key[:24]}.o"
+    return folder() / f"{_name_of(function, types)}.o"
+
+
+def _name_of(function: Callable[..., Any], types: str) -> str:
+    """Name of the machine code of a kernel for some types: its own, and the hash of all that decides on it."""
+    stamp = stamp_of(Path(function.__code__.co_filename))
+    key = hashlib.sha256(f"{stamp} {_processor()} {function.__module__} {types}".encode()).hexdigest()
+    return f"{function.__name__}_{key[:24]}"
 
 
 @cache
@@ -122,46 +155,6 @@ def _processor() -> str:
     return f"{llvm.get_process_triple()} {llvm.get_host_cpu_name()} {features}"
 
 
-# -- types and the layout of arguments -------------------------------------------------------------------------------
-
-
-def _types_of(arguments: Any) -> str:
-    """Spell the types of arguments: what decides on the machine code."""
-    if isinstance(arguments, np.ndarray):
-        layout = "C" if arguments.flags.c_contiguous else "A"
-        return f"{arguments.dtype.str}{arguments.ndim}{layout}{'' if arguments.flags.writeable else 'r'}"
-    if isinstance(arguments, tuple):
-        return f"{type(arguments).__name__}({','.join(map(_types_of, arguments))})"
-    return type(arguments).__name__
-
-
-def _flat(arguments: tuple[Any, ...]) -> list[Any]:
-    """Arguments as they are laid out: what owns an array is nobody, as code that returns nothing keeps none."""
-    flat: list[Any] = []
-    for argument in arguments:
-        if isinstance(argument, np.ndarray):
-            address = argument.__array_interface__["data"][0]
-            flat += None, None, argument.size, argument.itemsize, address, *argument.shape, *argument.strides
-        elif isinstance(argument, tuple):
-            flat += _flat(argument)
-        else:
-            flat.append(float(argument) if isinstance(argument, float) else int(argument))
-    return flat
-
-
-def _layout(arguments: tuple[Any, ...]) -> Iterator[Any]:
-    """Types of what `_flat` gives."""
-    for argument in arguments:
-        if isinstance(argument, np.ndarray):
-            yield from (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p)
-            yield from (ctypes.c_int64,) * (2 * argument.ndim)
-        elif isinstance(argument, tuple):
-            yield from _layout(argument)
-        else:
-            kind = next(kind for kind in _NUMBERS if isinstance(argument, kind))
-            yield _NUMBERS[kind]
-
-
 # -- linking ---------------------------------------------------------------------------------------------------------
 
 _engines: list[Any] = []  # they own the code
@@ -179,105 +172,14 @@ def _engine() -> Any:
     return llvm.create_mcjit_compiler(llvm.parse_assembly(""), machine)
 
 
-def _linked(content: bytes) -> Native:
-    """Load the content of a file: a line that names the kernel's symbol, then the object."""
+def _linked(name: str, content: bytes) -> Native:
+    """Load an object file, and find the code of a name in it."""
     import llvmlite.binding as llvm
 
-    head, _, code = content.partition(b"\n")
-    symbol = json.loads(head)["symbol"]
     engine = _engine()
-    engine.add_object_file(llvm.ObjectFileRef.from_data(code))
+    engine.add_object_file(llvm.ObjectFileRef.from_data(content))
     engine.finalize_object()
-    address = engine.get_function_address(symbol)
-    typed: list[Callable[..., int]] = []  # by the arguments of the first call: all others have their types
-    nothing, error = ctypes.c_void_p(), ctypes.c_void_p()
-    answers = (ctypes.byref(nothing), ctypes.byref(error))
-
-    def call(*arguments: Any) -> None:
-        if not typed:
-            typed.append(ctypes.CFUNCTYPE(ctypes.c_int32, *_ANSWERS, *_layout(arguments))(address))
-        if typed[0](*answers, *_flat(arguments)) != 0:
-            raise RuntimeError(f"{symbol} failed")
-
-    return call
-
-
-# -- compiling -------------------------------------------------------------------------------------------------------
-
-
-def _compiled(function: Callable[..., None], arguments: tuple[Any, ...]) -> bytes:
-    """Symbol and object of a kernel for arguments of these types."""
-    from numba import typeof
-    from numba.core.compiler_lock import global_compiler_lock
-
-    dispatcher = unlinked(function)
-    signature = tuple(typeof(argument) for argument in arguments)
-    dispatcher.compile(signature)
-    result = dispatcher.overloads[signature]
-    head = json.dumps({"symbol": result.fndesc.llvm_func_name})
-    with global_compiler_lock:
-        code: bytes = result.library.emit_native_object()
-    return head.encode() + b"\n" + code
-
-
-@cache
-def unlinked(function: Callable[..., Any]) -> Any:
-    """Dispatcher of a kernel whose code is for a file alone: nothing of it is loaded into this process."""
-    from numba import njit
-    from numba.core.compiler import Compiler
-
-    class AheadOfTime(Compiler):
-        def __init__(self, typing_context: Any, _context: Any, *rest: Any) -> None:
-            super().__init__(typing_context, context_of_files(), *rest)
-            self.state.flags.no_compile = True
-
-        def compile_extra(self, function: Any) -> Any:
-            result = super().compile_extra(function)
-            result = result._replace(entry_point=[].append)  # something of its own that stands for the function
-            self.state.targetctx.insert_user_function(result.entry_point, result.fndesc, [result.library])
-            return result
-
-    options: dict[str, Any] = {
-        "error_model": "numpy",
-        "nogil": True,
-        "fastmath": fastmath_of(function),
-        "no_cpython_wrapper": True,
-        "no_cfunc_wrapper": True,
-        "_nrt": False,  # a kernel owns no memory
-        "pipeline_class": AheadOfTime,
-    }
-    return njit(**options)(rebound(function, unlinked))
-
-
-@cache
-def context_of_files() -> Any:
-    """Context in which code is optimised once, when it is whole: Numba would do it for each kernel and its callers."""
-    from numba.core.codegen import AOTCodeLibrary, AOTCPUCodegen
-    from numba.core.registry import cpu_target
-
-    class Library(AOTCodeLibrary):
-        def _optimize_functions(self, module: Any) -> None:
-            module.data_layout = self._codegen._data_layout
-
-        def _optimize_final_module(self) -> None:
-            pass
-
-        def hide_all_but(self, names: set[str]) -> None:
-            module = self._final_module
-            for value in (*module.functions, *module.global_variables):
-                if not value.is_declaration and value.name not in names:
-                    value.linkage = "internal"
-
-        def emit_native_object(self) -> Any:
-            self._ensure_finalized()
-            super()._optimize_functions(self._final_module)
-            super()._optimize_final_module()
-            return super().emit_native_object()
-
-    class Codegen(AOTCPUCodegen):
-        _library_class = Library
-
-    return cpu_target.target_context.subtarget(_internal_codegen=Codegen("pendular", cpu_name="host"), aot_mode=True)
+    return caller(engine.get_function_address(name), name)
 
 
 @contextmanager

@@ -114,24 +114,22 @@ def _owned(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
 
 def _machine_code(function: Callable[..., None], count: int, arguments: tuple[Any, ...]) -> Callable[..., None] | None:
     """Machine code of an entry, if it pays: None to run it as it stands."""
-    if not has_compiler():
-        return None
     if _always:
         return _made(function, arguments)
     ahead = _spent[function] + count * _costs[function]
     if ahead < _LOADING:
         return None
     code = native.load(function, arguments)
-    if code is None and ahead > _patience.get(function, _PATIENCE):
-        return native.build(function, arguments)
-    if code is None:
+    if code is None and has_compiler():
+        if ahead > _patience.get(function, _PATIENCE):
+            return native.build(function, arguments)
         background.compile_all()
     return code
 
 
 def _made(function: Callable[..., None], arguments: tuple[Any, ...]) -> Callable[..., None] | None:
-    """Machine code of an entry, made if it is not there, and told of."""
-    code, start, took = native.load(function, arguments), perf_counter(), 0.0
+    """Machine code of an entry for this processor, made if it is not there, and told of."""
+    code, start, took = native.load_own(function, arguments), perf_counter(), 0.0
     if code is None:
         code = native.build(function, arguments)
         took = perf_counter() - start

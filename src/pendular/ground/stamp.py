@@ -10,7 +10,7 @@ from importlib.metadata import version
 from importlib.util import resolve_name
 from pathlib import Path
 
-__all__ = ["stamp_of"]
+__all__ = ["source_stamp", "stamp_of"]
 
 _HOME = Path(__file__).parent.parent
 _PACKAGE = _HOME.name
@@ -24,7 +24,13 @@ def stamp_of(file: Path) -> str:
     The processor is not in it.
     """
     tools = f"{sys.version} {version('numba')} {version('llvmlite')}"
-    digest = hashlib.sha256(tools.encode())
+    return hashlib.sha256(f"{tools} {source_stamp(file)}".encode()).hexdigest()
+
+
+@cache
+def source_stamp(file: Path) -> str:
+    """Hash of all source that a kernel of a file can take anything from."""
+    digest = hashlib.sha256()
     for source in sorted(_sources_of(file)):
         digest.update(f"\0{source.name}\0".encode() + source.read_bytes())
     return digest.hexdigest()

@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib.metadata import version
 from math import inf
 from os import PathLike
 from typing import Literal
@@ -10,6 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .._version import __version__
 from ..ground.check import angle, as_path, in_range, numbers, one_of, quantity, result_array, scalar
 from ..ground.warn import warn
 from . import binary, storage
@@ -368,7 +368,7 @@ def tabulate(
     for name, error, asked in reached_and_asked:
         if not error <= asked:
             warn(f"tolerance: the error of the {name} is {error:.1e}, not below {asked:.1e}", ToleranceWarning)
-    return Table(pair, control, (low, high), (low_ratio, high_ratio), wanted, bound, version("pendular"), grid)
+    return Table(pair, control, (low, high), (low_ratio, high_ratio), wanted, bound, __version__, grid)
 
 
 def _build(task: Task) -> tuple[Grid, Bound]:

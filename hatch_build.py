@@ -1,0 +1,52 @@
+"""Wheels with machine code: ``PENDULAR_MACHINE_CODE=1 uv build --wheel`` compiles every kernel that arrays call.
+
+Such a wheel is for one system and processor, as its name tells, and for every Python. Any other has the source alone.
+"""
+
+import os
+import subprocess
+import sys
+import sysconfig
+import tempfile
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+
+
+class MachineCode(BuildHookInterface[Any]):
+    """Compile the kernels, and put the library that they make into the wheel."""
+
+    def dependencies(self) -> list[str]:
+        """What compiles: all that the package needs."""
+        if not _is_wanted():
+            return []
+        project = tomllib.loads(Path(self.root, "pyproject.toml").read_text(encoding="utf-8"))
+        return list(project["project"]["dependencies"])
+
+    def initialize(self, version: str, build_data: dict[str, Any]) -> None:
+        """Make the library before the wheel is put together."""
+        if not _is_wanted() or version == "editable":
+            return
+        self._folder = tempfile.TemporaryDirectory()
+        made = Path(self._folder.name, "machine_code.so")
+        paths = os.pathsep.join([str(Path(self.root, "src")), *sys.path])
+        subprocess.run(
+            [sys.executable, "-m", "tools.machine_code", made],
+            cwd=self.root,
+            env=os.environ | {"PYTHONPATH": paths},
+            check=True,
+        )
+        build_data["force_include"][str(made)] = "pendular/ground/machine_code.so"
+        build_data["pure_python"] = False
+        build_data["tag"] = f"py3-none-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
+
+    def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:
+        """Drop the library that is in the wheel now."""
+        if build_data["force_include"]:
+            self._folder.cleanup()
+
+
+def _is_wanted() -> bool:
+    return os.environ.get("PENDULAR_MACHINE_CODE") == "1"
