@@ -5,7 +5,6 @@ import math
 import re
 import warnings
 
-import numba
 import numpy as np
 import pint
 import pytest
@@ -369,24 +368,16 @@ def test_a_gap_of_less_than_an_atom_is_contact(control, separation):
 # -- threads ---------------------------------------------------------------------------------------------------------
 
 
-@pytest.fixture
-def threads():
-    """Set the number of threads, and restore it."""
-    before = numba.get_num_threads()
-    yield numba.set_num_threads
-    numba.set_num_threads(before)
-
-
 @pytest.mark.parametrize(("control", "count"), [("suction", 10000), ("volume", 100)])
 @pytest.mark.parametrize("branch", ["stable", "unstable"])
-def test_results_do_not_depend_on_the_threads(threads, control, count, branch):
+def test_results_do_not_depend_on_the_threads(monkeypatch, control, count, branch):
     rng = np.random.default_rng(20)
     pair = pl.Pair((50e-6, rng.choice([50e-6, 200e-6, math.inf], count)), (0.3, rng.uniform(0.0, 1.2, count)))
     held = {"suction": 10.0 ** rng.uniform(2, 7, count), "volume": 10.0 ** rng.uniform(-18, -14, count)}[control]
     rupture = pl.rupture(pair, **{control: held}, liquid=LIQUID).separation
     answers = []
-    for number in (1, numba.config.NUMBA_NUM_THREADS):
-        threads(number)
+    for number in (1, 3):
+        monkeypatch.setattr("pendular.ground.rows.thread_count", lambda number=number: number)
         answers.append(pl.bridge(pair, 0.97 * rupture, **{control: held}, liquid=LIQUID, branch=branch))
     assert answers[0].exists.all()
     assert_same(*answers)

@@ -2,7 +2,6 @@
 
 import math
 
-import numba
 import numpy as np
 import pytest
 
@@ -141,15 +140,11 @@ def test_neither_threads_nor_the_order_of_the_list_change_a_bit(tables, monkeypa
     monkeypatch.setattr("pendular.table.arrays._CHUNK", 100)
     rng, pairs, positions, radii = packing(13, cells=8)
     results = []
-    threads = numba.get_num_threads()
-    try:
-        for count in (1, min(2, threads)):
-            numba.set_num_threads(count)
-            for order in (np.arange(len(pairs)), rng.permutation(len(pairs))):
-                volumes = VOLUME * (1.0 + (pairs.sum(axis=1)[order] % 7))
-                results.append(contact_forces(tables["volume"], pairs[order], positions, radii, volumes, TENSION))
-    finally:
-        numba.set_num_threads(threads)
+    for count in (1, 3):
+        monkeypatch.setattr("pendular.ground.rows.thread_count", lambda count=count: count)
+        for order in (np.arange(len(pairs)), rng.permutation(len(pairs))):
+            volumes = VOLUME * (1.0 + (pairs.sum(axis=1)[order] % 7))
+            results.append(contact_forces(tables["volume"], pairs[order], positions, radii, volumes, TENSION))
     assert len(results[0].attraction) > 300
     for other in results[1:]:
         for name in ("force", "virial", "separation", "attraction"):

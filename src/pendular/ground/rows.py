@@ -114,7 +114,7 @@ def _owned(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
 
 def _machine_code(function: Callable[..., None], count: int, arguments: tuple[Any, ...]) -> Callable[..., None] | None:
     """Machine code of an entry, if it pays: None to run it as it stands."""
-    if _always:
+    if _always and has_compiler():
         return _made(function, arguments)
     ahead = _spent[function] + count * _costs[function]
     if ahead < _LOADING:
