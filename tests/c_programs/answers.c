@@ -9,9 +9,7 @@
 
 SHARED size_t size_of_table(void);
 SHARED const char *error_of(int code);
-SHARED int open_path(const char *path, pendular_table *table);
 SHARED int open_bytes(const void *bytes, size_t size, pendular_table *table);
-SHARED void close_table(pendular_table *table);
 SHARED const char *text_of(const pendular_table *table, int channel, int which);
 SHARED double bound_of(const pendular_table *table, int channel);
 SHARED int channel_of(const pendular_table *table, const char *name);
@@ -33,19 +31,9 @@ const char *error_of(int code)
     return pendular_table_error(code);
 }
 
-int open_path(const char *path, pendular_table *table)
-{
-    return pendular_table_open(path, table);
-}
-
 int open_bytes(const void *bytes, size_t size, pendular_table *table)
 {
     return pendular_table_view(bytes, size, table);
-}
-
-void close_table(pendular_table *table)
-{
-    pendular_table_close(table);
 }
 
 const char *text_of(const pendular_table *table, int channel, int which)
@@ -102,3 +90,20 @@ double ask_by_name(const pendular_table *table, int asked, double separation, do
         return pendular_table_energy(table, separation, control, radius1, radius2, surface_tension);
     }
 }
+
+#ifndef PENDULAR_TABLE_NO_FILES
+
+SHARED int open_path(const char *path, pendular_table *table);
+SHARED void close_table(pendular_table *table);
+
+int open_path(const char *path, pendular_table *table)
+{
+    return pendular_table_open(path, table);
+}
+
+void close_table(pendular_table *table)
+{
+    pendular_table_close(table);
+}
+
+#endif
