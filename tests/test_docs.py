@@ -33,6 +33,7 @@ ELSEWHERE = {
     "speed.md": "test_table.py",
     "c_header.md": "test_c_header.py",
     "c_library.md": "test_c_library.py",
+    "liggghts.md": "test_liggghts.py",
     "howto/gpu.md": "test_cuda.py",
 }
 OWN = [name for name in PAGES if name not in ELSEWHERE]

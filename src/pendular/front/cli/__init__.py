@@ -11,6 +11,7 @@ from . import (  # noqa: F401, registers the commands
     export,
     export_c,
     export_library,
+    export_liggghts,
     export_pair_table,
     export_table,
     laws,

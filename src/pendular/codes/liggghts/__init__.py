@@ -1,0 +1,47 @@
+"""A cohesion model for LIGGGHTS, which reads a table of exact bridges: the files that build it."""
+
+from importlib.resources import files
+from pathlib import Path
+
+from ...ground.files import in_one_line, whole
+from ..c_header import table_header
+
+__all__ = ["FILES", "write"]
+
+FILES = ("cohesion_model_pendular.h", "main.cpp", "Makefile")
+_EVALUATOR = "pendular_table.h"
+
+
+def write(folder: Path) -> list[Path]:
+    """Write the cohesion model ``pendular``, what builds it against an installed LIGGGHTS, and what reads the tables.
+
+    Parameters
+    ----------
+    folder : Path
+        Made if it is not there. Files of the same names in it are replaced.
+
+    Returns
+    -------
+    list of Path
+        What was written: the model, the program, its ``Makefile`` and ``pendular_table.h``.
+
+    Raises
+    ------
+    ValueError
+        If a file cannot be written.
+
+    Examples
+    --------
+    >>> from tempfile import mkdtemp
+    >>> [path.name for path in write(Path(mkdtemp()))]
+    ['cohesion_model_pendular.h', 'main.cpp', 'Makefile', 'pendular_table.h']
+    """
+    texts = {name: (files(__package__) / name).read_text(encoding="utf-8") for name in FILES}
+    texts[_EVALUATOR] = table_header()
+    with in_one_line("out", folder):
+        folder.mkdir(parents=True, exist_ok=True)
+    written = [folder / name for name in texts]
+    for path in written:
+        with in_one_line("out", path), whole(path) as draft:
+            draft.write_text(texts[path.name], encoding="utf-8")
+    return written
