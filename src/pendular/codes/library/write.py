@@ -12,7 +12,7 @@ from ...ground.linking import linker, shared_library
 from .archive import archive
 from .kernels import FAILED, FUNCTIONS
 
-__all__ = ["HEADER", "SHARED", "STATIC", "header", "write"]
+__all__ = ["HEADER", "SHARED", "STATIC", "header", "static_files", "write"]
 
 HEADER, STATIC, SHARED = "pendular.h", "libpendular.a", "libpendular.so"
 
@@ -21,6 +21,14 @@ def header() -> str:
     """Text of the header for this machine."""
     text = (files(__package__) / HEADER).read_text(encoding="utf-8")
     return Template(text).substitute(version=__version__, processor=processor())
+
+
+def static_files() -> dict[str, bytes]:
+    """The header and the static library, by their names."""
+    if not has_compiler():
+        raise ValueError("library: needs numba, which compiles it; pip install numba")
+    names = [function.name for function in FUNCTIONS]
+    return {HEADER: header().encode(), STATIC: archive("pendular.o", linkable(FUNCTIONS, FAILED), names)}
 
 
 def write(folder: Path) -> list[Path]:
@@ -41,15 +49,9 @@ def write(folder: Path) -> list[Path]:
     ValueError
         If Numba is not installed, or a file cannot be written.
     """
-    if not has_compiler():
-        raise ValueError("library: needs numba, which compiles it; pip install numba")
-    code = linkable(FUNCTIONS, FAILED)
-    contents = {
-        HEADER: header().encode(),
-        STATIC: archive("pendular.o", code, [function.name for function in FUNCTIONS]),
-    }
+    contents = static_files()
     if (compiler := linker()) is not None:
-        contents[SHARED] = shared_library(compiler, SHARED, [code])
+        contents[SHARED] = shared_library(compiler, SHARED, [linkable(FUNCTIONS, FAILED)])
     with in_one_line("out", folder):
         folder.mkdir(parents=True, exist_ok=True)
     written = [folder / name for name in contents]

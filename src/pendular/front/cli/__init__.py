@@ -10,6 +10,7 @@ from . import (  # noqa: F401, registers the commands
     data,
     export,
     export_c,
+    export_lammps,
     export_library,
     export_liggghts,
     export_pair_table,

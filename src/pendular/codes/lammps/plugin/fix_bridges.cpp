@@ -1,0 +1,247 @@
+/* Which grains have a bridge, kept with the grains. SPDX-License-Identifier: BSD-3-Clause */
+#include "fix_bridges.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "pair_pendular.h"
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+namespace pendular_lammps {
+namespace {
+    constexpr int PARTNER = 2; /* numbers of a partner in a buffer */
+}
+
+FixBridges::FixBridges(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+{
+    if (narg != 3)
+        error->all(FLERR, "Fix pendular/bridges: is made by pair style pendular alone");
+    restart_peratom = 1;
+    restart_global = 1; /* so that write_restart is called before the atoms are packed */
+    create_attribute = 1;
+    maxexchange_dynamic = 1;
+    comm_reverse = 1;
+    FixBridges::grow_arrays(atom->nmax);
+    for (int i = 0; i < atom->nlocal; ++i)
+        count[i] = 0;
+    atom->add_callback(Atom::GROW);
+    atom->add_callback(Atom::RESTART);
+}
+
+FixBridges::~FixBridges()
+{
+    if (copymode)
+        return;
+    atom->delete_callback(id, Atom::GROW);
+    atom->delete_callback(id, Atom::RESTART);
+    if (pair)
+        pair->forget_history();
+}
+
+int FixBridges::setmask()
+{
+    return PRE_EXCHANGE | MIN_PRE_EXCHANGE | POST_NEIGHBOR | MIN_POST_NEIGHBOR;
+}
+
+void FixBridges::init()
+{
+    if (!atom->tag_enable)
+        error->all(FLERR, "Pair pendular: atoms have no ids; leave out 'atom_modify id no'");
+}
+
+/* From the list of the pair style to the atoms. Either atom of a bridge will have it, for the next list may begin at
+   either; those of ghosts are sent to where the atoms are. */
+void FixBridges::pre_exchange()
+{
+    if (!is_behind || !pair)
+        return;
+    is_behind = false;
+    const std::vector<Ends> &ends = pair->ends;
+    std::fill(count.begin(), count.end(), 0);
+    for (const Ends &bridge : ends) {
+        ++count[bridge.i];
+        ++count[bridge.j];
+    }
+    counts_only = true;
+    comm->reverse_comm(this, 1);
+    fill();
+    counts_only = false;
+    comm->reverse_comm_variable(this);
+    most = 0;
+    for (int i = 0; i < local; ++i)
+        most = std::max(most, count[i]);
+    maxexchange = PARTNER * most + 1;
+    for (int i = local; i < static_cast<int>(count.size()); ++i) /* ghosts, and atoms that were added since */
+        count[i] = 0;
+}
+
+/* The same with the liquid in the bridges, so that what was drained may go on undrained, with the liquid that it has. */
+void FixBridges::keep_volumes()
+{
+    volumes_wanted = true;
+    pre_exchange();
+    volumes_wanted = false;
+}
+
+/* Room for as many partners as were counted, and those that this rank knows. */
+void FixBridges::fill()
+{
+    size_t size = 0;
+    for (int i = 0; i < all; ++i) {
+        start[i] = size;
+        size += count[i];
+        count[i] = 0;
+    }
+    pool.resize(size);
+    for (int k = 0; k < static_cast<int>(pair->ends.size()); ++k) {
+        const Bridge &bridge = pair->bridges[k];
+        const double held = volumes_wanted ? pair->volume_of(k) : bridge.held;
+        add(pair->ends[k].i, {bridge.tag2, k, held});
+        add(pair->ends[k].j, {bridge.tag1, k, held});
+    }
+}
+
+void FixBridges::add(int i, const Partner &partner)
+{
+    pool[start[i] + count[i]++] = partner;
+}
+
+void FixBridges::post_neighbor()
+{
+    local = atom->nlocal;
+    all = local + atom->nghost;
+    if (pair)
+        pair->take_list();
+}
+
+void FixBridges::grow_arrays(int most_atoms)
+{
+    start.resize(most_atoms, 0);
+    count.resize(most_atoms, 0);
+}
+
+void FixBridges::copy_arrays(int i, int j, int)
+{
+    start[j] = start[i];
+    count[j] = count[i];
+}
+
+void FixBridges::set_arrays(int i)
+{
+    count[i] = 0;
+}
+
+int FixBridges::pack_reverse_comm_size(int n, int first)
+{
+    int size = 0;
+    for (int i = first; i < first + n; ++i)
+        size += 1 + PARTNER * count[i];
+    return size;
+}
+
+int FixBridges::pack_reverse_comm(int n, int first, double *buffer)
+{
+    int size = 0;
+    for (int i = first; i < first + n; ++i) {
+        if (counts_only)
+            buffer[size++] = count[i];
+        else
+            size += pack(i, buffer + size);
+    }
+    return size;
+}
+
+void FixBridges::unpack_reverse_comm(int n, int *list, double *buffer)
+{
+    int size = 0;
+    for (int k = 0; k < n; ++k) {
+        const int i = list[k], sent = static_cast<int>(buffer[size++]);
+        if (counts_only) {
+            count[i] += sent;
+            continue;
+        }
+        for (int m = 0; m < sent; ++m, size += PARTNER)
+            add(i, {static_cast<tagint>(ubuf(buffer[size]).i), -1, buffer[size + 1]});
+    }
+}
+
+int FixBridges::pack(int i, double *buffer) const
+{
+    int size = 0;
+    buffer[size++] = count[i];
+    for (const Partner *partner = begin(i); partner != end(i); ++partner) {
+        buffer[size++] = ubuf(static_cast<int64_t>(partner->tag)).d;
+        buffer[size++] = partner->held;
+    }
+    return size;
+}
+
+int FixBridges::unpack(int i, const double *buffer)
+{
+    const int sent = static_cast<int>(buffer[0]);
+    start[i] = pool.size();
+    count[i] = sent;
+    most = std::max(most, sent);
+    maxexchange = std::max(maxexchange, PARTNER * sent + 1);
+    for (int m = 0; m < sent; ++m) {
+        const double *partner = buffer + 1 + PARTNER * m;
+        pool.push_back({static_cast<tagint>(ubuf(partner[0]).i), -1, partner[1]});
+    }
+    return 1 + PARTNER * sent;
+}
+
+int FixBridges::pack_exchange(int i, double *buffer)
+{
+    return pack(i, buffer);
+}
+
+int FixBridges::unpack_exchange(int i, double *buffer)
+{
+    return unpack(i, buffer);
+}
+
+void FixBridges::write_restart(FILE *file)
+{
+    keep_volumes();
+    if (comm->me == 0) {
+        const int size = 0;
+        fwrite(&size, sizeof size, 1, file);
+    }
+}
+
+int FixBridges::pack_restart(int i, double *buffer)
+{
+    const int size = 1 + pack(i, buffer + 1);
+    buffer[0] = size;
+    return size;
+}
+
+void FixBridges::unpack_restart(int i, int nth)
+{
+    const double *extra = atom->extra[i];
+    for (int k = 0; k < nth; ++k)
+        extra += static_cast<int>(extra[0]);
+    unpack(i, extra + 1);
+}
+
+int FixBridges::size_restart(int i)
+{
+    return 2 + PARTNER * count[i];
+}
+
+int FixBridges::maxsize_restart()
+{
+    int largest;
+    MPI_Allreduce(&most, &largest, 1, MPI_INT, MPI_MAX, world);
+    return 2 + PARTNER * largest;
+}
+
+double FixBridges::memory_usage()
+{
+    return static_cast<double>(pool.capacity()) * sizeof(Partner)
+        + static_cast<double>(start.capacity()) * (sizeof(size_t) + sizeof(int));
+}
+
+}    // namespace pendular_lammps

@@ -1,0 +1,280 @@
+/* Pair style pendular: what the input says, and lists. SPDX-License-Identifier: BSD-3-Clause */
+#include "pair_pendular.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix.h"
+#include "force.h"
+#include "memory.h"
+#include "modify.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "utils.h"
+
+using namespace LAMMPS_NS;
+
+namespace pendular_lammps {
+namespace {
+    const char *const HISTORY = "PENDULAR_BRIDGES";
+    const char *const WHO = "Pair pendular";
+    constexpr double ROUNDING = 1.0 + 1e-12;
+}    // namespace
+
+PairPendular::PairPendular(LAMMPS *lmp) : Pair(lmp)
+{
+    restartinfo = 0;
+    single_enable = 0;
+    no_virial_fdotr_compute = 1;
+    comm_forward = 2;
+    comm_reverse = comm_reverse_off = 10;
+    if (modify->get_fix_by_id(HISTORY))
+        error->all(FLERR, "{}: is there already, and one is enough for all types", WHO);
+    history = dynamic_cast<FixBridges *>(modify->add_fix(fmt::format("{} all pendular/bridges", HISTORY)));
+    history->pair = this;
+}
+
+PairPendular::~PairPendular()
+{
+    if (copymode)
+        return;
+    if (history) {
+        history->pair = nullptr;
+        modify->delete_fix(HISTORY);
+    }
+    if (allocated) {
+        memory->destroy(setflag);
+        memory->destroy(cutsq);
+    }
+}
+
+void PairPendular::allocate()
+{
+    const int size = atom->ntypes + 1;
+    memory->create(setflag, size, size, "pair:setflag");
+    memory->create(cutsq, size, size, "pair:cutsq");
+    for (int i = 0; i < size; ++i)
+        for (int j = 0; j < size; ++j)
+            setflag[i][j] = 0;
+    law_of.assign(size, std::vector<Law *>(size, nullptr));
+    largest.assign(size, 0.0);
+    allocated = 1;
+}
+
+/* film NAME, share S, rupture film | bridges */
+void PairPendular::settings(int narg, char **arg)
+{
+    film = Film();
+    for (int i = 0; i < narg; i += 2) {
+        const std::string word = arg[i];
+        if (i + 1 >= narg)
+            error->all(FLERR, "{}: a value is missing after {}", WHO, word);
+        if (word == "film")
+            film.name = arg[i + 1];
+        else if (word == "share") {
+            film.share = utils::numeric(FLERR, arg[i + 1], false, lmp);
+            if (!(film.share > 0.0 && film.share <= 1.0))
+                error->all(FLERR, "{}: share {} is not in (0, 1]", WHO, arg[i + 1]);
+        } else if (word == "rupture") {
+            const std::string rule = arg[i + 1];
+            if (rule != "film" && rule != "bridges")
+                error->all(FLERR, "{}: rupture {} is neither film nor bridges", WHO, rule);
+            film.feeds_bridges = rule == "bridges";
+        } else
+            error->all(FLERR, "{}: {} is none of film, share, rupture", WHO, word);
+    }
+    if (narg > 0 && !film.is_there())
+        error->all(FLERR, "{}: share and rupture go with film, the name of a fix property/atom d_NAME", WHO);
+}
+
+void PairPendular::coeff(int narg, char **arg)
+{
+    if (narg < 3)
+        error->all(FLERR, "{}: pair_coeff wants two types, a table or 'exact', and what is held", WHO);
+    if (!allocated)
+        allocate();
+    int first[2], last[2];
+    for (int k = 0; k < 2; ++k)
+        utils::bounds(FLERR, arg[k], 1, atom->ntypes, first[k], last[k], error);
+    auto law = std::make_shared<Law>(lmp, WHO);
+    const int read = 2 + law->read(narg - 2, arg + 2);
+    if (read < narg)
+        error->all(FLERR, "{}: pair_coeff does not know {}", WHO, arg[read]);
+    int set = 0;
+    for (int i = first[0]; i <= last[0]; ++i)
+        for (int j = std::max(first[1], i); j <= last[1]; ++j) {
+            if (i == j && law->is_of_two_angles())
+                error->all(FLERR, "{}: two contact angles go with two types, and {} {} is one", WHO, i, j);
+            law_of[i][j] = law_of[j][i] = law.get();
+            setflag[i][j] = 1;
+            ++set;
+        }
+    if (set == 0)
+        error->all(FLERR, "{}: pair_coeff {} {} names no pair of types; give the lower one first", WHO, arg[0], arg[1]);
+    laws.push_back(law);
+    retire_laws();
+}
+
+/* Laws that another one has replaced stay, for there may be bridges yet that were made by them. */
+void PairPendular::retire_laws()
+{
+    std::vector<std::shared_ptr<Law>> in_use;
+    for (const std::shared_ptr<Law> &law : laws) {
+        bool is_used = false;
+        for (const std::vector<Law *> &row : law_of)
+            is_used = is_used || std::find(row.begin(), row.end(), law.get()) != row.end();
+        (is_used ? in_use : retired).push_back(law);
+    }
+    laws.swap(in_use);
+}
+
+void PairPendular::init_style()
+{
+    if (!atom->radius_flag)
+        error->all(FLERR, "{}: atoms have no radius; use 'atom_style sphere'", WHO);
+    if (!history)
+        error->all(FLERR, "{}: its fix {} was deleted", WHO, HISTORY);
+    check_units(lmp, WHO);
+    if (film.is_there()) {
+        int is_double, columns;
+        if (atom->find_custom(film.name.c_str(), is_double, columns) < 0 || is_double != 1 || columns != 0)
+            error->all(FLERR, "{}: film {} is not there; make it by 'fix ID all property/atom d_{}'", WHO, film.name,
+                film.name);
+    }
+    for (const std::shared_ptr<Law> &law : laws)
+        law->refresh();
+    find_largest();
+    neighbor->add_request(this, NeighConst::REQ_NEWTON_ON);
+}
+
+/* Of the atoms that there are, and of those that fixes will make. */
+void PairPendular::find_largest()
+{
+    std::fill(largest.begin(), largest.end(), 0.0);
+    for (int i = 0; i < atom->nlocal; ++i)
+        largest[atom->type[i]] = std::max(largest[atom->type[i]], atom->radius[i]);
+    for (Fix *fix : modify->get_fix_list())
+        if (utils::strmatch(fix->style, "^pour") || utils::strmatch(fix->style, "^deposit"))
+            for (int type = 1; type <= atom->ntypes; ++type) {
+                int asked = type;
+                if (const void *radius = fix->extract("radius", asked))
+                    largest[type] = std::max(largest[type], *static_cast<const double *>(radius));
+            }
+    MPI_Allreduce(MPI_IN_PLACE, largest.data(), static_cast<int>(largest.size()), MPI_DOUBLE, MPI_MAX, world);
+}
+
+double PairPendular::init_one(int i, int j)
+{
+    const Law *law = law_of[i][j];
+    if (!law)
+        error->all(FLERR, "{}: pair_coeff {} {} is missing", WHO, i, j);
+    if (largest[i] == 0.0 || largest[j] == 0.0)
+        return 0.0;
+    return largest[i] + largest[j] + law->range({largest[i], largest[j]});
+}
+
+Solids PairPendular::solids_of(const Law &law, int i, int j) const
+{
+    const double *radius = atom->radius;
+    const int *type = atom->type;
+    return law.is_of_two_angles() && type[i] > type[j] ? Solids{radius[j], radius[i]} : Solids{radius[i], radius[j]};
+}
+
+double PairPendular::separation_of(const Ends &pair) const
+{
+    double **x = atom->x;
+    const double dx = x[pair.j][0] - x[pair.i][0], dy = x[pair.j][1] - x[pair.i][1], dz = x[pair.j][2] - x[pair.i][2];
+    return std::sqrt(dx * dx + dy * dy + dz * dz) - (atom->radius[pair.i] + atom->radius[pair.j]);
+}
+
+/* Grains that have grown would come near enough for a bridge before they are in the list. */
+void PairPendular::check_radii() const
+{
+    for (int i = 0; i < atom->nlocal; ++i)
+        if (atom->radius[i] > largest[atom->type[i]] * ROUNDING)
+            error->one(FLERR, "{}: atom {} of radius {:.6g} is larger than all of its type {} were when the run began",
+                WHO, atom->tag[i], atom->radius[i], atom->type[i]);
+}
+
+/* Two atoms with two bridges, through two of their images, could not be told apart. */
+void PairPendular::check_box() const
+{
+    const double *h = domain->h;
+    const double x = h[0], y = h[1], z = h[2], yz = h[3], xz = h[4], xy = h[5];
+    const double slant = xy * yz - y * xz;
+    const double face = std::sqrt(y * y * z * z + xy * xy * z * z + slant * slant);
+    const double widths[3] = {x * y * z / face, y * z / std::sqrt(z * z + yz * yz), z};
+    for (int k = 0; k < domain->dimension; ++k)
+        if (domain->periodicity[k] && widths[k] < 2.0 * cutforce)
+            error->all(FLERR, "{}: the width {:.6g} of the box along {} is less than twice {:.6g}, how far bridges reach",
+                WHO, widths[k], "xyz"[k], cutforce);
+}
+
+void PairPendular::take_list()
+{
+    cutforce = 0.0;
+    for (int i = 1; i <= atom->ntypes; ++i)
+        for (int j = i; j <= atom->ntypes; ++j)
+            cutforce = std::max(cutforce, std::sqrt(cutsq[i][j]));
+    check_radii();
+    check_box();
+    former_bridges.swap(bridges);
+    former_ends.swap(ends);
+    bridges.clear();
+    ends.clear();
+    watched.clear();
+    for (int row = 0; row < list->inum; ++row)
+        find_row(list->ilist[row]);
+    if (film.is_there())
+        return_lost();
+}
+
+/* The pairs of an atom in the list: those with a bridge, and those that may form one before the next list. */
+void PairPendular::find_row(int i)
+{
+    double **x = atom->x;
+    const double *radius = atom->radius;
+    const Partner *begin = history->begin(i), *end = history->end(i);
+    for (int k = 0; k < list->numneigh[i]; ++k) {
+        const int j = list->firstneigh[i][k] & NEIGHMASK;
+        Law *law = law_of[atom->type[i]][atom->type[j]];
+        const Partner *partner = begin;
+        while (partner != end && partner->tag != atom->tag[j])
+            ++partner;
+        if (partner != end) {
+            take_over(i, j, *law, *partner);
+            continue;
+        }
+        const double dx = x[j][0] - x[i][0], dy = x[j][1] - x[i][1], dz = x[j][2] - x[i][2];
+        const double near = radius[i] + radius[j] + law->formation + neighbor->skin;
+        if (dx * dx + dy * dy + dz * dz <= near * near)
+            watched.emplace_back(i, j);
+    }
+}
+
+/* A bridge of the list before, which this rank may have known. */
+void PairPendular::take_over(int i, int j, Law &law, const Partner &partner)
+{
+    const double held = law.is_drained() ? law.control() : partner.held;
+    ends.push_back({i, j, NAN, NAN});
+    bridges.emplace_back();
+    if (partner.former >= 0) {
+        Bridge &former = former_bridges[partner.former];
+        if (former.law == &law && former.held == held) {
+            ends.back().sum = former_ends[partner.former].sum;
+            ends.back().touching = former_ends[partner.former].touching;
+        }
+        bridges.back() = std::move(former);
+    }
+    Bridge &bridge = bridges.back();
+    bridge.law = &law;
+    bridge.tag1 = atom->tag[i];
+    bridge.tag2 = atom->tag[j];
+    bridge.held = held;
+}
+
+}    // namespace pendular_lammps

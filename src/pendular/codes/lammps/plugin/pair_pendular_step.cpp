@@ -1,0 +1,424 @@
+/* Pair style pendular: a step. SPDX-License-Identifier: BSD-3-Clause */
+#include <algorithm>
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "force.h"
+#include "memory.h"
+#include "pair_pendular.h"
+
+using namespace LAMMPS_NS;
+
+namespace pendular_lammps {
+namespace {
+    constexpr double ROUNDING = 1.0 + 1e-12;
+    constexpr int HOME = 10; /* numbers of a ghost: force, energy, virial */
+    constexpr int AHEAD = 12; /* bridges */
+}    // namespace
+
+void PairPendular::compute(int eflag, int vflag)
+{
+    ev_init(eflag, vflag);
+    history->fall_behind();
+    refresh();
+    clear_ghosts();
+    broken.clear();
+    forming.clear();
+    if (evflag)
+        add_forces<true>();
+    else
+        add_forces<false>();
+    look_at_watched();
+    if (film.is_there())
+        exchange_film();
+    remove_broken();
+    bring_home();
+}
+
+/* Suctions that are variables. */
+void PairPendular::refresh()
+{
+    for (const std::shared_ptr<Law> &law : laws)
+        if (law->refresh() && law->is_drained())
+            for (size_t k = 0; k < ends.size(); ++k)
+                if (bridges[k].law == law.get()) {
+                    bridges[k].held = law->control();
+                    ends[k].sum = NAN;
+                }
+}
+
+/* -- Forces --------------------------------------------------------------------------------------------------------- */
+
+template <bool TALLIES> void PairPendular::add_forces()
+{
+    double **x = atom->x, **f = atom->f;
+    const double *radius = atom->radius;
+    const int keeps_ghosts = !force->newton_pair, local = atom->nlocal;
+    const int count = static_cast<int>(ends.size());
+    for (int k = 0; k < count; ++k) {
+        const Ends &pair = ends[k];
+        const int i = pair.i, j = pair.j;
+        if (k + AHEAD < count)
+            __builtin_prefetch(x[ends[k + AHEAD].j]);
+        const double dx = x[j][0] - x[i][0], dy = x[j][1] - x[i][1], dz = x[j][2] - x[i][2];
+        const double square = dx * dx + dy * dy + dz * dz, sum = radius[i] + radius[j];
+        const double distance = std::sqrt(square);
+        double pull = pair.touching;
+        if (!(distance <= sum && sum == pair.sum)) {
+            pull = pull_of(k, distance - sum);
+            if (pull == 0.0) {
+                broken.push_back(k);
+                continue;
+            }
+        }
+        const double part = pull / distance;
+        f[i][0] += dx * part;
+        f[i][1] += dy * part;
+        f[i][2] += dz * part;
+        double *other = keeps_ghosts && j >= local ? &on_ghosts[HOME * (j - local)] : f[j];
+        other[0] -= dx * part;
+        other[1] -= dy * part;
+        other[2] -= dz * part;
+        if (TALLIES)
+            tally(k, part, dx, dy, dz);
+    }
+}
+
+/* Attraction of a bridge; 0 from the rupture distance on. */
+double PairPendular::pull_of(int number, double separation)
+{
+    const Ends &pair = ends[number];
+    const double sum = atom->radius[pair.i] + atom->radius[pair.j];
+    if (pair.sum == sum) {
+        if (separation <= 0.0)
+            return pair.touching;
+        if (separation >= bridges[number].rupture)
+            return 0.0;
+        const double pull = bridges[number].pull(separation);
+        if (!std::isnan(pull))
+            return pull;
+    }
+    return renewed_pull(number, separation);
+}
+
+/* The same of a bridge that has left its cell, or has to be made anew. */
+double PairPendular::renewed_pull(int number, double separation)
+{
+    Ends &pair = ends[number];
+    Bridge &bridge = bridges[number];
+    const Law &law = *bridge.law;
+    const Solids solids = solids_of(law, pair.i, pair.j);
+    const double sum = atom->radius[pair.i] + atom->radius[pair.j];
+    if (pair.sum != sum) {
+        pair.touching = law.renew(bridge, solids);
+        pair.sum = sum;
+        if (std::isnan(pair.touching))
+            refuse(pair.i, pair.j, law.refusal(bridge.held, solids));
+        const double reach = sum + bridge.rupture;
+        if (reach * reach > cutsq[atom->type[pair.i]][atom->type[pair.j]] * ROUNDING)
+            refuse(pair.i, pair.j,
+                fmt::format("their bridge reaches {:.6g} between the surfaces, farther than bridges are looked for; give "
+                            "'reach' in pair_coeff",
+                    bridge.rupture));
+    }
+    const double pull = law.pull(bridge, solids, pair.touching, separation);
+    if (std::isnan(pull))
+        refuse(pair.i, pair.j, law.refusal(bridge.held, solids));
+    return pull;
+}
+
+void PairPendular::refuse(int i, int j, const std::string &why) const
+{
+    error->one(FLERR, "Pair pendular: atoms {} and {}: {}", atom->tag[i], atom->tag[j], why);
+}
+
+/* Energy and virial, of which a ghost has its half. */
+void PairPendular::tally(int number, double part, double dx, double dy, double dz)
+{
+    const Ends &pair = ends[number];
+    const Bridge &bridge = bridges[number];
+    double energy = 0.0;
+    if (eflag_either)
+        energy = bridge.law->energy(bridge, solids_of(*bridge.law, pair.i, pair.j), separation_of(pair));
+    ev_tally(pair.i, pair.j, atom->nlocal, 1, energy, 0.0, -part, -dx, -dy, -dz);
+}
+
+/* -- Bridges that form and break ------------------------------------------------------------------------------------ */
+
+void PairPendular::look_at_watched()
+{
+    double **x = atom->x;
+    const double *radius = atom->radius;
+    size_t kept = 0;
+    for (const std::pair<int, int> &pair : watched) {
+        const int i = pair.first, j = pair.second;
+        const double dx = x[j][0] - x[i][0], dy = x[j][1] - x[i][1], dz = x[j][2] - x[i][2];
+        const double square = dx * dx + dy * dy + dz * dz;
+        Law &law = *law_of[atom->type[i]][atom->type[j]];
+        const double near = radius[i] + radius[j] + law.formation;
+        if (square > near * near) {
+            watched[kept++] = pair;
+            continue;
+        }
+        if (film.is_there() && !law.is_drained()) {
+            forming.push_back({i, j, &law});
+            continue;
+        }
+        const double held = held_by(i, j, law, INFINITY);
+        if (std::isnan(held))
+            watched[kept++] = pair;
+        else
+            form(i, j, law, held);
+    }
+    watched.resize(kept);
+}
+
+/* What a bridge would hold that forms now, of what is offered; NaN for no bridge. */
+double PairPendular::held_by(int i, int j, Law &law, double offered) const
+{
+    const double held = law.is_drained() ? law.control() : std::min(law.control(), offered);
+    const Solids solids = solids_of(law, i, j);
+    const double end = law.rupture(held, solids);
+    if (std::isnan(end) && held == law.control())
+        refuse(i, j, law.refusal(held, solids));
+    return separation_of({i, j, 0.0, 0.0}) < end ? held : NAN; /* too little for the table: none */
+}
+
+void PairPendular::form(int i, int j, Law &law, double held)
+{
+    ends.push_back({i, j, NAN, NAN});
+    bridges.emplace_back();
+    Bridge &bridge = bridges.back();
+    bridge.law = &law;
+    bridge.tag1 = atom->tag[i];
+    bridge.tag2 = atom->tag[j];
+    bridge.held = held;
+    add_force(static_cast<int>(ends.size()) - 1);
+}
+
+/* Of one that has just formed. */
+void PairPendular::add_force(int number)
+{
+    double **x = atom->x, **f = atom->f;
+    const int i = ends[number].i, j = ends[number].j, local = atom->nlocal;
+    const double dx = x[j][0] - x[i][0], dy = x[j][1] - x[i][1], dz = x[j][2] - x[i][2];
+    const double distance = std::sqrt(dx * dx + dy * dy + dz * dz);
+    const double part = pull_of(number, distance - (atom->radius[i] + atom->radius[j])) / distance;
+    double *other = !force->newton_pair && j >= local ? &on_ghosts[HOME * (j - local)] : f[j];
+    const double pull[3] = {dx * part, dy * part, dz * part};
+    for (int k = 0; k < 3; ++k) {
+        f[i][k] += pull[k];
+        other[k] -= pull[k];
+    }
+    if (evflag)
+        tally(number, part, dx, dy, dz);
+}
+
+/* They may form again. */
+void PairPendular::remove_broken()
+{
+    for (size_t n = broken.size(); n-- > 0;) {
+        const int k = broken[n];
+        watched.emplace_back(ends[k].i, ends[k].j);
+        ends[k] = ends.back();
+        bridges[k] = std::move(bridges.back());
+        ends.pop_back();
+        bridges.pop_back();
+    }
+}
+
+double PairPendular::volume_of(int number) const
+{
+    const Bridge &bridge = bridges[number];
+    if (!bridge.law->is_drained())
+        return bridge.held;
+    return bridge.law->volume(bridge, solids_of(*bridge.law, ends[number].i, ends[number].j), separation_of(ends[number]));
+}
+
+/* -- Liquid on the grains ------------------------------------------------------------------------------------------- */
+
+double *PairPendular::film_on_grains() const
+{
+    int is_double, columns;
+    return atom->dvector[atom->find_custom(film.name.c_str(), is_double, columns)];
+}
+
+void PairPendular::exchange_film()
+{
+    int is_anything = !forming.empty();
+    for (int k : broken)
+        is_anything = is_anything || !bridges[k].law->is_drained();
+    MPI_Allreduce(MPI_IN_PLACE, &is_anything, 1, MPI_INT, MPI_MAX, world);
+    if (!is_anything)
+        return;
+    film.clear(atom->nlocal + atom->nghost);
+    std::vector<bool> is_broken(ends.size(), false);
+    for (int k : broken)
+        is_broken[k] = true;
+    for (size_t k = 0; k < ends.size(); ++k) {
+        if (bridges[k].law->is_drained())
+            continue;
+        for (int i : {ends[k].i, ends[k].j}) {
+            film.returned[i] += is_broken[k] ? 0.5 * bridges[k].held : 0.0;
+            film.standing[i] += is_broken[k] ? 0.0 : 1.0;
+        }
+    }
+    for (const Candidate &pair : forming)
+        for (int i : {pair.i, pair.j})
+            film.forming[i] += 1.0;
+    film.talk = Film::RETURNED;
+    comm->reverse_comm(this, film.numbers());
+    double *on_grains = film_on_grains();
+    for (int i = 0; i < atom->nlocal; ++i)
+        film.offer(i, on_grains[i]);
+    film.talk = Film::OFFERED;
+    comm->forward_comm(this, film.numbers());
+    for (size_t k = 0; k < ends.size(); ++k) {
+        const double gained = film.gained[ends[k].i] + film.gained[ends[k].j];
+        if (gained > 0.0 && !is_broken[k] && !bridges[k].law->is_drained()) {
+            bridges[k].held += gained;
+            ends[k].sum = NAN;
+        }
+    }
+    form_from_film();
+    film.talk = Film::TAKEN;
+    comm->reverse_comm(this, film.numbers());
+    for (int i = 0; i < atom->nlocal; ++i)
+        on_grains[i] -= film.taken[i];
+}
+
+/* A new bridge takes from its grains in proportion to what they offer. */
+void PairPendular::form_from_film()
+{
+    for (const Candidate &pair : forming) {
+        const double offered[2] = {film.offered[pair.i], film.offered[pair.j]};
+        const double sum = offered[0] + offered[1];
+        const double held = sum > 0.0 ? held_by(pair.i, pair.j, *pair.law, sum) : NAN;
+        if (std::isnan(held)) {
+            watched.emplace_back(pair.i, pair.j);
+            continue;
+        }
+        form(pair.i, pair.j, *pair.law, held);
+        film.taken[pair.i] += held * (offered[0] / sum);
+        film.taken[pair.j] += held * (offered[1] / sum);
+    }
+}
+
+/* Where one of the two grains is gone, or both were put far apart, each that is left has half of the liquid. */
+void PairPendular::return_lost()
+{
+    film.clear(atom->nlocal + atom->nghost);
+    for (size_t k = 0; k < ends.size(); ++k)
+        for (int i : {ends[k].i, ends[k].j}) {
+            film.returned[i] += bridges[k].law->is_drained() ? 0.0 : bridges[k].held;
+            film.standing[i] += 1.0;
+        }
+    film.talk = Film::FOUND;
+    comm->reverse_comm(this, film.numbers());
+    double *on_grains = film_on_grains();
+    for (int i = 0; i < atom->nlocal; ++i) {
+        if (film.standing[i] == history->end(i) - history->begin(i))
+            continue;
+        for (const Partner *partner = history->begin(i); partner != history->end(i); ++partner)
+            on_grains[i] += 0.5 * partner->held;
+        on_grains[i] -= 0.5 * film.returned[i];
+    }
+}
+
+/* -- Ranks ---------------------------------------------------------------------------------------------------------- */
+
+/* Without Newton's law between ranks, LAMMPS leaves what is added to ghosts where it is. */
+void PairPendular::clear_ghosts()
+{
+    if (force->newton_pair)
+        return;
+    const int local = atom->nlocal, ghosts = atom->nghost;
+    on_ghosts.assign(static_cast<size_t>(HOME) * ghosts, 0.0);
+    if (eflag_atom)
+        std::fill(eatom + local, eatom + local + ghosts, 0.0);
+    if (vflag_atom && ghosts)
+        std::fill(vatom[local], vatom[local] + 6 * ghosts, 0.0);
+}
+
+void PairPendular::bring_home()
+{
+    if (force->newton_pair)
+        return;
+    const int local = atom->nlocal, ghosts = atom->nghost;
+    const int size = eflag_atom || vflag_atom ? HOME : 3;
+    for (int g = 0; g < ghosts; ++g) {
+        double *numbers = &on_ghosts[HOME * g];
+        if (eflag_atom)
+            numbers[3] = eatom[local + g];
+        if (vflag_atom)
+            std::copy(vatom[local + g], vatom[local + g] + 6, numbers + 4);
+    }
+    homeward = size;
+    comm->reverse_comm(this, size);
+    homeward = 0;
+}
+
+int PairPendular::pack_reverse_comm(int n, int first, double *buffer)
+{
+    double *next = buffer;
+    for (int i = first; i < first + n; ++i) {
+        if (homeward) {
+            const double *numbers = &on_ghosts[HOME * (i - atom->nlocal)];
+            next = std::copy(numbers, numbers + homeward, next);
+        } else
+            next += film.pack(i, next);
+    }
+    return static_cast<int>(next - buffer);
+}
+
+/* An atom that is a ghost itself, where a box is but one rank wide, hands on what it gets. */
+void PairPendular::unpack_reverse_comm(int n, int *list, double *buffer)
+{
+    const double *next = buffer;
+    for (int k = 0; k < n; ++k) {
+        const int i = list[k];
+        if (!homeward) {
+            next += film.add(i, next);
+            continue;
+        }
+        if (i >= atom->nlocal) {
+            double *numbers = &on_ghosts[HOME * (i - atom->nlocal)];
+            for (int m = 0; m < homeward; ++m)
+                numbers[m] += next[m];
+        } else {
+            for (int m = 0; m < 3; ++m)
+                atom->f[i][m] += next[m];
+            if (eflag_atom)
+                eatom[i] += next[3];
+            if (vflag_atom)
+                for (int m = 0; m < 6; ++m)
+                    vatom[i][m] += next[4 + m];
+        }
+        next += homeward;
+    }
+}
+
+int PairPendular::pack_forward_comm(int n, int *list, double *buffer, int, int *)
+{
+    double *next = buffer;
+    for (int k = 0; k < n; ++k)
+        next += film.pack(list[k], next);
+    return static_cast<int>(next - buffer);
+}
+
+void PairPendular::unpack_forward_comm(int n, int first, double *buffer)
+{
+    const double *next = buffer;
+    for (int i = first; i < first + n; ++i)
+        next += film.take(i, next);
+}
+
+double PairPendular::memory_usage()
+{
+    return Pair::memory_usage() + static_cast<double>(bridges.capacity() + former_bridges.capacity()) * sizeof(Bridge)
+        + static_cast<double>(ends.capacity() + former_ends.capacity()) * sizeof(Ends)
+        + static_cast<double>(watched.capacity()) * sizeof(std::pair<int, int>);
+}
+
+}    // namespace pendular_lammps
