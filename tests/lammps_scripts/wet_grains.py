@@ -63,7 +63,7 @@ def simulation(plugin, grains, coefficients, *, style="", newton="on", film=None
     for tag, radius in enumerate(np.asarray(radii).tolist(), 1):
         lmp.command(f"set atom {tag} diameter {2 * radius!r} density 2500")
         if film is not None:
-            lmp.command(f"set atom {tag} d_film {film[tag - 1]!r}")
+            lmp.command(f"set atom {tag} d_film {float(film[tag - 1])!r}")
     lmp.commands_string(model(style, coefficients))
     return lmp
 
@@ -93,7 +93,9 @@ def rows_of(lmp, compute="bridges"):
 
 def found_in(lmp):
     """All that can be compared, by id."""
-    lmp.commands_string("compute each all pe/atom pair\ncompute stress all stress/atom NULL pair\nrun 0 pre yes post no")
+    lmp.commands_string(
+        "compute each all pe/atom pair\ncompute stress all stress/atom NULL pair\nrun 0 pre yes post no"
+    )
     nlocal = lmp.extract_setting("nlocal")
     own = np.column_stack(
         [
@@ -120,9 +122,7 @@ def main(answer, plugin, newton, steps, seed, style, coefficients, film):
     """Run, and write what there is at the end."""
     state = grains(int(seed))
     world = MPI.COMM_WORLD
-    lmp = simulation(
-        plugin, state, coefficients, style=style, newton=newton, film=np.full(len(state[0]), float(film))
-    )
+    lmp = simulation(plugin, state, coefficients, style=style, newton=newton, film=np.full(len(state[0]), float(film)))
     lmp.command("run 0")
     owned = own_ids(lmp)
     lmp.command(f"run {steps}")

@@ -1,6 +1,8 @@
 /* Which grains have a bridge, kept with the grains. SPDX-License-Identifier: BSD-3-Clause */
 #include "fix_bridges.h"
 
+#include <cstring>
+
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
@@ -16,7 +18,7 @@ namespace {
 
 FixBridges::FixBridges(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
 {
-    if (narg != 3)
+    if (narg != 3 || std::strcmp(id, NAME) != 0)
         error->all(FLERR, "Fix pendular/bridges: is made by pair style pendular alone");
     restart_peratom = 1;
     restart_global = 1; /* so that write_restart is called before the atoms are packed */

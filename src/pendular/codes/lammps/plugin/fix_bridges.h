@@ -20,6 +20,8 @@ struct Partner {
 
 class FixBridges : public LAMMPS_NS::Fix {
 public:
+    static constexpr const char *NAME = "PENDULAR_BRIDGES";
+
     PairPendular *pair = nullptr; /* whose bridges these are */
 
     FixBridges(LAMMPS_NS::LAMMPS *, int, char **);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 
 #include "atom.h"
 #include "comm.h"
@@ -20,7 +21,6 @@ using namespace LAMMPS_NS;
 
 namespace pendular_lammps {
 namespace {
-    const char *const HISTORY = "PENDULAR_BRIDGES";
     const char *const WHO = "Pair pendular";
     constexpr double ROUNDING = 1.0 + 1e-12;
 }    // namespace
@@ -32,9 +32,9 @@ PairPendular::PairPendular(LAMMPS *lmp) : Pair(lmp)
     no_virial_fdotr_compute = 1;
     comm_forward = 2;
     comm_reverse = comm_reverse_off = 10;
-    if (modify->get_fix_by_id(HISTORY))
+    if (modify->get_fix_by_id(FixBridges::NAME))
         error->all(FLERR, "{}: is there already, and one is enough for all types", WHO);
-    history = dynamic_cast<FixBridges *>(modify->add_fix(fmt::format("{} all pendular/bridges", HISTORY)));
+    history = dynamic_cast<FixBridges *>(modify->add_fix(fmt::format("{} all pendular/bridges", FixBridges::NAME)));
     history->pair = this;
 }
 
@@ -44,7 +44,7 @@ PairPendular::~PairPendular()
         return;
     if (history) {
         history->pair = nullptr;
-        modify->delete_fix(HISTORY);
+        modify->delete_fix(FixBridges::NAME);
     }
     if (allocated) {
         memory->destroy(setflag);
@@ -137,7 +137,7 @@ void PairPendular::init_style()
     if (!atom->radius_flag)
         error->all(FLERR, "{}: atoms have no radius; use 'atom_style sphere'", WHO);
     if (!history)
-        error->all(FLERR, "{}: its fix {} was deleted", WHO, HISTORY);
+        error->all(FLERR, "{}: its fix {} was deleted", WHO, FixBridges::NAME);
     check_units(lmp, WHO);
     if (film.is_there()) {
         int is_double, columns;
@@ -148,6 +148,9 @@ void PairPendular::init_style()
     for (const std::shared_ptr<Law> &law : laws)
         law->refresh();
     find_largest();
+    radii_change = false;
+    for (const Fix *fix : modify->get_fix_list())
+        radii_change = radii_change || fix->diam_flag;
     neighbor->add_request(this, NeighConst::REQ_NEWTON_ON);
 }
 
@@ -229,6 +232,10 @@ void PairPendular::take_list()
     watched.clear();
     for (int row = 0; row < list->inum; ++row)
         find_row(list->ilist[row]);
+    ends.insert(ends.end(), ends_apart.begin(), ends_apart.end());
+    std::move(bridges_apart.begin(), bridges_apart.end(), std::back_inserter(bridges));
+    ends_apart.clear();
+    bridges_apart.clear();
     if (film.is_there())
         return_lost();
 }
@@ -242,39 +249,42 @@ void PairPendular::find_row(int i)
     for (int k = 0; k < list->numneigh[i]; ++k) {
         const int j = list->firstneigh[i][k] & NEIGHMASK;
         Law *law = law_of[atom->type[i]][atom->type[j]];
+        const double dx = x[j][0] - x[i][0], dy = x[j][1] - x[i][1], dz = x[j][2] - x[i][2];
+        const double square = dx * dx + dy * dy + dz * dz, sum = radius[i] + radius[j];
         const Partner *partner = begin;
         while (partner != end && partner->tag != atom->tag[j])
             ++partner;
-        if (partner != end) {
-            take_over(i, j, *law, *partner);
-            continue;
-        }
-        const double dx = x[j][0] - x[i][0], dy = x[j][1] - x[i][1], dz = x[j][2] - x[i][2];
-        const double near = radius[i] + radius[j] + law->formation + neighbor->skin;
-        if (dx * dx + dy * dy + dz * dz <= near * near)
+        const double near = sum + law->formation + neighbor->skin;
+        if (partner != end)
+            take_over(i, j, *law, *partner, square > sum * sum);
+        else if (square <= near * near)
             watched.emplace_back(i, j);
     }
 }
 
-/* A bridge of the list before, which this rank may have known. */
-void PairPendular::take_over(int i, int j, Law &law, const Partner &partner)
+/* A bridge of the list before, which this rank may have known. Those of grains apart stand behind all others, where the
+   processor foresees which they are. */
+void PairPendular::take_over(int i, int j, Law &law, const Partner &partner, bool is_apart)
 {
     const double held = law.is_drained() ? law.control() : partner.held;
-    ends.push_back({i, j, NAN, NAN});
-    bridges.emplace_back();
+    Ends pair = {i, j, NAN, NAN};
+    Bridge bridge;
     if (partner.former >= 0) {
         Bridge &former = former_bridges[partner.former];
-        if (former.law == &law && former.held == held) {
-            ends.back().sum = former_ends[partner.former].sum;
-            ends.back().touching = former_ends[partner.former].touching;
+        const Ends &of_former = former_ends[partner.former];
+        const double sum = atom->radius[i] + atom->radius[j];
+        if (former.law == &law && former.held == held && of_former.sum == sum) {
+            pair.sum = sum;
+            pair.touching = of_former.touching;
         }
-        bridges.back() = std::move(former);
+        bridge = std::move(former);
     }
-    Bridge &bridge = bridges.back();
     bridge.law = &law;
     bridge.tag1 = atom->tag[i];
     bridge.tag2 = atom->tag[j];
     bridge.held = held;
+    (is_apart ? ends_apart : ends).push_back(pair);
+    (is_apart ? bridges_apart : bridges).push_back(std::move(bridge));
 }
 
 }    // namespace pendular_lammps

@@ -51,14 +51,15 @@ private:
     std::vector<std::shared_ptr<Law>> laws, retired;
     std::vector<std::vector<Law *>> law_of; /* by two types */
     std::vector<double> largest;            /* radius of each type */
-    std::vector<Ends> former_ends;          /* of the list before */
-    std::vector<Bridge> former_bridges;
+    std::vector<Ends> former_ends, ends_apart; /* of the list before, and while a list is made */
+    std::vector<Bridge> former_bridges, bridges_apart;
     std::vector<std::pair<int, int>> watched; /* pairs that may come near enough for a bridge */
     std::vector<int> broken;                  /* numbers of bridges */
     std::vector<Candidate> forming;
     std::vector<double> on_ghosts; /* force, energy and virial, where LAMMPS does not bring them home */
     FixBridges *history = nullptr;
     Film film;
+    bool radii_change = false;
     int homeward = 0; /* numbers of a ghost that are sent home, 0 if it is talked of films */
 
     void allocate();
@@ -67,11 +68,11 @@ private:
     void check_radii() const;
     void check_box() const;
     void find_row(int i);
-    void take_over(int i, int j, Law &, const Partner &);
+    void take_over(int i, int j, Law &, const Partner &, bool is_apart);
     void refresh();
     template <bool TALLIES> void add_forces();
-    double pull_of(int number, double separation);
-    double renewed_pull(int number, double separation);
+    double pull_of(int number, double distance);
+    double renewed_pull(int number, double distance);
     void add_force(int number);
     void tally(int number, double pull_over_distance, double dx, double dy, double dz);
     void look_at_watched();

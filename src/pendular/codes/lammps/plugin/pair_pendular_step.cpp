@@ -14,7 +14,6 @@ namespace pendular_lammps {
 namespace {
     constexpr double ROUNDING = 1.0 + 1e-12;
     constexpr int HOME = 10; /* numbers of a ghost: force, energy, virial */
-    constexpr int AHEAD = 12; /* bridges */
 }    // namespace
 
 void PairPendular::compute(int eflag, int vflag)
@@ -36,9 +35,13 @@ void PairPendular::compute(int eflag, int vflag)
     bring_home();
 }
 
-/* Suctions that are variables. */
+/* Suctions that are variables, and radii where a fix may change them. */
 void PairPendular::refresh()
 {
+    if (radii_change)
+        for (Ends &pair : ends)
+            if (pair.sum != atom->radius[pair.i] + atom->radius[pair.j])
+                pair.sum = NAN;
     for (const std::shared_ptr<Law> &law : laws)
         if (law->refresh() && law->is_drained())
             for (size_t k = 0; k < ends.size(); ++k)
@@ -52,31 +55,29 @@ void PairPendular::refresh()
 
 template <bool TALLIES> void PairPendular::add_forces()
 {
-    double **x = atom->x, **f = atom->f;
-    const double *radius = atom->radius;
-    const int keeps_ghosts = !force->newton_pair, local = atom->nlocal;
-    const int count = static_cast<int>(ends.size());
+    const double *const *x = atom->x;
+    double **f = atom->f;
+    const bool keeps_ghosts = !force->newton_pair;
+    const int count = static_cast<int>(ends.size()), local = atom->nlocal;
     for (int k = 0; k < count; ++k) {
         const Ends &pair = ends[k];
-        const int i = pair.i, j = pair.j;
-        if (k + AHEAD < count)
-            __builtin_prefetch(x[ends[k + AHEAD].j]);
-        const double dx = x[j][0] - x[i][0], dy = x[j][1] - x[i][1], dz = x[j][2] - x[i][2];
-        const double square = dx * dx + dy * dy + dz * dz, sum = radius[i] + radius[j];
-        const double distance = std::sqrt(square);
+        const double *from = x[pair.i], *to = x[pair.j];
+        const double dx = to[0] - from[0], dy = to[1] - from[1], dz = to[2] - from[2];
+        const double distance = std::sqrt(dx * dx + dy * dy + dz * dz);
         double pull = pair.touching;
-        if (!(distance <= sum && sum == pair.sum)) {
-            pull = pull_of(k, distance - sum);
+        if (!(distance <= pair.sum)) {
+            pull = pull_of(k, distance);
             if (pull == 0.0) {
                 broken.push_back(k);
                 continue;
             }
         }
         const double part = pull / distance;
-        f[i][0] += dx * part;
-        f[i][1] += dy * part;
-        f[i][2] += dz * part;
-        double *other = keeps_ghosts && j >= local ? &on_ghosts[HOME * (j - local)] : f[j];
+        double *one = f[pair.i];
+        double *other = keeps_ghosts && pair.j >= local ? &on_ghosts[HOME * (pair.j - local)] : f[pair.j];
+        one[0] += dx * part;
+        one[1] += dy * part;
+        one[2] += dz * part;
         other[0] -= dx * part;
         other[1] -= dy * part;
         other[2] -= dz * part;
@@ -86,43 +87,37 @@ template <bool TALLIES> void PairPendular::add_forces()
 }
 
 /* Attraction of a bridge; 0 from the rupture distance on. */
-double PairPendular::pull_of(int number, double separation)
+inline double PairPendular::pull_of(int number, double distance)
 {
-    const Ends &pair = ends[number];
-    const double sum = atom->radius[pair.i] + atom->radius[pair.j];
-    if (pair.sum == sum) {
-        if (separation <= 0.0)
-            return pair.touching;
-        if (separation >= bridges[number].rupture)
-            return 0.0;
-        const double pull = bridges[number].pull(separation);
-        if (!std::isnan(pull))
-            return pull;
-    }
-    return renewed_pull(number, separation);
+    const double separation = distance - ends[number].sum;
+    if (separation <= 0.0)
+        return ends[number].touching;
+    if (separation >= bridges[number].rupture)
+        return 0.0;
+    const double pull = bridges[number].pull(separation);
+    return std::isnan(pull) ? renewed_pull(number, distance) : pull;
 }
 
 /* The same of a bridge that has left its cell, or has to be made anew. */
-double PairPendular::renewed_pull(int number, double separation)
+double PairPendular::renewed_pull(int number, double distance)
 {
     Ends &pair = ends[number];
     Bridge &bridge = bridges[number];
     const Law &law = *bridge.law;
     const Solids solids = solids_of(law, pair.i, pair.j);
-    const double sum = atom->radius[pair.i] + atom->radius[pair.j];
-    if (pair.sum != sum) {
+    if (std::isnan(pair.sum)) {
+        pair.sum = atom->radius[pair.i] + atom->radius[pair.j];
         pair.touching = law.renew(bridge, solids);
-        pair.sum = sum;
         if (std::isnan(pair.touching))
             refuse(pair.i, pair.j, law.refusal(bridge.held, solids));
-        const double reach = sum + bridge.rupture;
+        const double reach = pair.sum + bridge.rupture;
         if (reach * reach > cutsq[atom->type[pair.i]][atom->type[pair.j]] * ROUNDING)
             refuse(pair.i, pair.j,
                 fmt::format("their bridge reaches {:.6g} between the surfaces, farther than bridges are looked for; give "
                             "'reach' in pair_coeff",
                     bridge.rupture));
     }
-    const double pull = law.pull(bridge, solids, pair.touching, separation);
+    const double pull = law.pull(bridge, solids, pair.touching, distance - pair.sum);
     if (std::isnan(pull))
         refuse(pair.i, pair.j, law.refusal(bridge.held, solids));
     return pull;
@@ -204,7 +199,7 @@ void PairPendular::add_force(int number)
     const int i = ends[number].i, j = ends[number].j, local = atom->nlocal;
     const double dx = x[j][0] - x[i][0], dy = x[j][1] - x[i][1], dz = x[j][2] - x[i][2];
     const double distance = std::sqrt(dx * dx + dy * dy + dz * dz);
-    const double part = pull_of(number, distance - (atom->radius[i] + atom->radius[j])) / distance;
+    const double part = renewed_pull(number, distance) / distance;
     double *other = !force->newton_pair && j >= local ? &on_ghosts[HOME * (j - local)] : f[j];
     const double pull[3] = {dx * part, dy * part, dz * part};
     for (int k = 0; k < 3; ++k) {
