@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from . import native
 from .objects import context_of_files, unlinked
 
-__all__ = ["Array", "Constant", "Count", "Function", "Integer", "Real", "linkable", "processor"]
+__all__ = ["Array", "Constant", "Count", "Function", "Integer", "Real", "linkable", "llvm_text", "processor"]
 
 
 class Constant(NamedTuple):
@@ -62,7 +62,20 @@ def processor() -> str:
     return f"{llvm.get_host_cpu_name()}, {llvm.get_process_triple()}"
 
 
+def llvm_text(functions: Sequence[Function], failed: int) -> str:
+    """The same as text for LLVM, not optimised yet, for any other processor."""
+    return str(_library_of(functions, failed).text())
+
+
 def _compiled(functions: Sequence[Function], failed: int) -> bytes:
+    from numba.core.compiler_lock import global_compiler_lock
+
+    with global_compiler_lock:
+        code: bytes = _library_of(functions, failed).emit_native_object()
+    return code
+
+
+def _library_of(functions: Sequence[Function], failed: int) -> Any:
     from numba.core.compiler_lock import global_compiler_lock
 
     context = context_of_files()
@@ -79,8 +92,7 @@ def _compiled(functions: Sequence[Function], failed: int) -> bytes:
         library.add_ir_module(module)
         library.finalize()
         library.hide_all_but({function.name: function.name for function in functions})
-        code: bytes = library.emit_native_object()
-    return code
+    return library
 
 
 def _type_of(argument: Argument) -> Any:

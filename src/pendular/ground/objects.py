@@ -77,6 +77,9 @@ def context_of_files(processor: str = HOST) -> Any:
                 elif not value.is_declaration:
                     value.linkage = "internal"
 
+        def text(self) -> str:
+            return str(self._final_module)
+
         def emit_native_object(self) -> Any:
             self._ensure_finalized()
             super()._optimize_functions(self._final_module)

@@ -15,6 +15,7 @@ from . import (  # noqa: F401, registers the commands
     export_liggghts,
     export_pair_table,
     export_table,
+    export_wasm,
     laws,
     packing,
     page,

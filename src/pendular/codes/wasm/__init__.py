@@ -1,0 +1,55 @@
+"""The exact solver as a WebAssembly module for JavaScript: the files that a page needs."""
+
+import json
+from importlib.resources import files
+from pathlib import Path
+from string import Template
+
+from ... import __version__
+from ...exact.state import State
+from ...ground.compile import has_compiler
+from ...ground.files import in_one_line, whole
+from ...ground.webassembly import linker, module_of
+from ..library.kernels import FAILED, FUNCTIONS
+
+__all__ = ["MODULE", "SCRIPT", "TYPES", "write"]
+
+MODULE, SCRIPT, TYPES = "pendular.wasm", "pendular.mjs", "pendular.d.mts"
+
+
+def write(folder: Path) -> list[Path]:
+    """Write the module, and what JavaScript and TypeScript need to call it, into a folder.
+
+    Parameters
+    ----------
+    folder : Path
+        Made if it is not there. Files of the same names in it are replaced.
+
+    Returns
+    -------
+    list of Path
+        What was written.
+
+    Raises
+    ------
+    ValueError
+        If Numba or the linker ``wasm-ld`` is not installed, or a file cannot be written.
+    """
+    if not has_compiler():
+        raise ValueError("wasm: needs numba, which compiles it; pip install numba")
+    if (found := linker()) is None:
+        raise ValueError("wasm: needs wasm-ld, which links it; apt-get install lld, or brew install lld")
+    contents = {MODULE: module_of(FUNCTIONS, FAILED, found), SCRIPT: _text(SCRIPT), TYPES: _text(TYPES)}
+    with in_one_line("out", folder):
+        folder.mkdir(parents=True, exist_ok=True)
+    written = [folder / name for name in contents]
+    for path in written:
+        with in_one_line("out", path), whole(path) as draft:
+            draft.write_bytes(contents[path.name])
+    return written
+
+
+def _text(name: str) -> bytes:
+    """A file of this package, with the names of a state as the solver has them."""
+    text = (files(__package__) / name).read_text(encoding="utf-8")
+    return Template(text).safe_substitute(version=__version__, fields=json.dumps(State._fields)).encode()

@@ -1,0 +1,106 @@
+// Capillary bridges between two solids, from the exact solution of the Young-Laplace equation.
+// Written by Pendular ${version} (pendular export wasm), with pendular.wasm beside it.
+//
+//   import { load } from "./pendular.mjs";
+//
+//   const { bridge, rupture } = await load();
+//   const grains = { radius: [50e-6, Infinity], contactAngle: 0.35 };
+//   const water = { suction: 20e3, surfaceTension: 0.0728 };
+//   console.log(bridge(grains, 1e-6, water)?.force, rupture(grains, water).separation);
+//
+// SI units, angles in radians. The separation is from surface to surface, negative where the solids overlap. A plane has
+// radius Infinity. What is held is the suction, gas pressure minus liquid pressure, or the volume of the liquid.
+//
+// Copyright (c) 2026, the Pendular developers. SPDX-License-Identifier: BSD-3-Clause. Without any warranty.
+
+const FIELDS = ${fields};
+const [FOUND, NO_BRIDGE, FAILED] = [0, 1, 2];
+const CONTROLS = ["suction", "volume"];
+const IMPORTS = ["atan", "atan2", "cos", "exp", "hypot", "log", "log1p", "pow", "sin"];
+const PAIR_NUMBERS = 5;
+
+/** The solver, from the bytes or the address of its module; else from the file beside this one. */
+export async function load(source = new URL("pendular.wasm", import.meta.url)) {
+  const bytes = source instanceof URL || typeof source === "string" ? await bytesAt(source) : source;
+  const env = Object.fromEntries(IMPORTS.map((name) => [name, Math[name]]));
+  const { instance } = await WebAssembly.instantiate(bytes, { env });
+  return solver(instance.exports);
+}
+
+async function bytesAt(source) {
+  const url = new URL(source, import.meta.url);
+  if (url.protocol === "file:") {
+    const { readFile } = await import("node:fs/promises");
+    return readFile(url);
+  }
+  const response = await fetch(url);
+  if (!response.ok) throw new Error(`$${url}: $${response.status} $${response.statusText}`);
+  return response.arrayBuffer();
+}
+
+function solver(module) {
+  const pairAt = Math.ceil(module.__heap_base.value / 8);
+  const stateAt = pairAt + PAIR_NUMBERS;
+  const missing = 8 * (stateAt + FIELDS.length) - module.memory.buffer.byteLength;
+  if (missing > 0) module.memory.grow(Math.ceil(missing / 65536));
+  const numbers = new Float64Array(module.memory.buffer);
+
+  function asked(pair, liquid, ask) {
+    const { control, held } = heldBy(liquid);
+    numbers.set([...both("radius", pair.radius), ...both("contactAngle", pair.contactAngle ?? 0)], pairAt);
+    numbers[pairAt + 4] = liquid.surfaceTension;
+    const status = ask(control, held, 8 * pairAt, 8 * stateAt);
+    if (status === NO_BRIDGE) return null;
+    if (status === FAILED) throw new Error("the solver did not find, or exclude, the bridge");
+    if (status !== FOUND) throw new RangeError("pair, separation, suction or volume: out of range");
+    return stateOf(numbers.subarray(stateAt, stateAt + FIELDS.length), liquid.surfaceTension);
+  }
+
+  return {
+    bridge: (pair, separation, liquid) =>
+      asked(pair, liquid, (control, held, ...places) => module.pendular_bridge(control, separation, held, ...places)),
+    bridges: (pair, separations, liquid) => {
+      numbers.fill(NaN, stateAt, stateAt + FIELDS.length); // no bridge to start from
+      return Array.from(separations, (separation) =>
+        asked(pair, liquid, (control, held, ...places) =>
+          module.pendular_bridge_near(control, separation, held, ...places),
+        ),
+      );
+    },
+    rupture: (pair, liquid) => asked(pair, liquid, module.pendular_rupture),
+  };
+}
+
+function heldBy(liquid) {
+  const given = CONTROLS.filter((name) => liquid[name] !== undefined);
+  if (given.length !== 1) throw new TypeError("give suction or volume, one of them");
+  return { control: CONTROLS.indexOf(given[0]), held: liquid[given[0]] };
+}
+
+function both(name, value) {
+  const values = Array.isArray(value) ? value : [value, value];
+  if (values.length !== 2 || values.some((each) => typeof each !== "number"))
+    throw new TypeError(`$${name}: give a number, or one for each solid`);
+  return values;
+}
+
+function stateOf(row, surfaceTension) {
+  const of = Object.fromEntries(FIELDS.map((name, i) => [name, row[i]]));
+  return {
+    separation: of.separation,
+    suction: of.curvature * surfaceTension,
+    volume: of.volume,
+    force: of.force,
+    stiffness: of.stiffness,
+    neckRadius: of.neck_radius,
+    neckInside: of.neck_inside === 1,
+    contactRadius: [of.radius1, of.radius2],
+    halfFillingAngle: [of.filling1, of.filling2],
+    liquidGasArea: of.area,
+    wettedArea: [of.wetted_area1, of.wetted_area2],
+    capillaryTensor: [of.across_tensor, of.axial_tensor],
+    unstableDirections: of.unstable_directions,
+    sidewaysStable: of.sideways_stable === 1,
+    meridian: { radius: of.middle_radius, slope: of.middle_slope, halfLength: of.half_length, curvature: of.curvature },
+  };
+}

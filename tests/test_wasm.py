@@ -1,0 +1,183 @@
+"""The exact solver in WebAssembly: its numbers in Node beside Python's, and what it refuses."""
+
+import json
+import math
+import shutil
+import subprocess
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tools.code_blocks import code_blocks
+
+import pendular as pl
+from pendular.codes import wasm
+from pendular.ground import webassembly
+
+pytestmark = [
+    pytest.mark.needs("numba"),
+    pytest.mark.skipif(webassembly.linker() is None, reason="wasm-ld is not installed: apt-get install lld"),
+]
+NODE = pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
+
+ROOT = Path(__file__).parents[1]
+SEED = 20261129
+TENSION = 0.0728
+ASK = """
+import { readFileSync } from "node:fs";
+import { load } from "./pendular.mjs";
+const solver = await load();
+const answers = [];
+for (const { ask, given } of JSON.parse(readFileSync(0), (_, value) => (value === "plane" ? Infinity : value))) {
+  try {
+    answers.push(solver[ask](...given));
+  } catch (error) {
+    answers.push(`${error.name}: ${error.message}`);
+  }
+}
+console.log(JSON.stringify(answers));
+"""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """What the command writes, and a script that asks what stands on its input."""
+    folder = tmp_path_factory.mktemp("wasm") / "page"
+    assert [path.name for path in wasm.write(folder)] == ["pendular.wasm", "pendular.mjs", "pendular.d.mts"]
+    (folder / "ask.mjs").write_text(ASK)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def answers_of(folder):
+    """Answers of the module to questions."""
+
+    def answers_of(questions):
+        done = subprocess.run(
+            ["node", "ask.mjs"], cwd=folder, input=json.dumps(questions), capture_output=True, text=True, check=True
+        )
+        return json.loads(done.stdout)
+
+    return answers_of
+
+
+def question(ask, pair, *numbers, tension=TENSION, **control):
+    radius = ["plane" if radius == math.inf else radius for radius in np.broadcast_to(pair.radius, 2).tolist()]
+    angle = np.broadcast_to(pair.contact_angle, 2).tolist()
+    held = {"surfaceTension": tension, **control}
+    return {"ask": ask, "given": [{"radius": radius, "contactAngle": angle}, *numbers, held]}
+
+
+def random_pair(rng):
+    radius = rng.choice([50e-6, 80e-6, 1e-3, math.inf], 2, p=[0.4, 0.3, 0.2, 0.1])
+    radius[rng.integers(2)] = 10.0 ** rng.uniform(-6, -3)
+    return pl.Pair(tuple(radius), tuple(rng.uniform(0.0, 2.4, 2)))
+
+
+def assert_same(found, bridge, unsure):
+    """All that JavaScript is given of a bridge is what Python has of it, but for what has no digits there."""
+    named = {"liquidGasArea": "liquid_gas_area", "capillaryTensor": "capillary_tensor"}
+    for name, value in found.items():
+        if name == "meridian" or name in unsure:
+            continue
+        own = named.get(name) or "".join(f"_{letter.lower()}" if letter.isupper() else letter for letter in name)
+        wanted = np.asarray(getattr(bridge, own), float).tolist()
+        value = math.nan if value is None else value  # JSON has no NaN
+        scale = np.abs(np.asarray(wanted)).max()
+        digits = 1e-10 if name == "stiffness" else 1e-12  # a quotient of determinants
+        assert value == pytest.approx(wanted, rel=digits, abs=digits * scale, nan_ok=True), name
+
+
+@NODE
+@pytest.mark.parametrize("control", ["suction", "volume"])
+def test_numbers_are_those_of_python(answers_of, control):
+    print(f"seed {SEED}")
+    rng = np.random.default_rng(SEED)
+    liquid, asked, bridges = pl.Liquid(surface_tension=TENSION), [], []
+    for _ in range(150):
+        pair = random_pair(rng)
+        size = float(pair.derjaguin_radius)
+        held = {"suction": 10.0 ** rng.uniform(-2, 4) * TENSION / size, "volume": 10.0 ** rng.uniform(-9, 0) * size**3}
+        given = {control: float(held[control])}
+        rupture = pl.rupture(pair, **given, liquid=liquid)
+        asked.append(question("rupture", pair, **given))
+        bridges.append(rupture)
+        if not rupture.exists:
+            continue
+        for part in (0.2, 0.9, 1.1):
+            gap = part * float(rupture.separation)
+            asked.append(question("bridge", pair, gap, **given))
+            bridges.append(pl.bridge(pair, gap, **given, liquid=liquid))
+    found = answers_of(asked)
+    assert sum(bool(bridge.exists) for bridge in bridges) > 300
+    for answer, bridge, given in zip(found, bridges, asked, strict=True):
+        assert (answer is not None) == bool(bridge.exists)
+        if answer is not None:  # a stiffness at rupture is a division by nothing
+            assert_same(answer, bridge, {"stiffness", "unstableDirections"} if given["ask"] == "rupture" else set())
+
+
+@NODE
+def test_bridges_in_a_row_are_the_same_one_by_one(answers_of):
+    pair, liquid = pl.Pair((50e-6, math.inf), (0.3, 0.7)), pl.Liquid(surface_tension=TENSION)
+    end = float(pl.rupture(pair, suction=5e3, liquid=liquid).separation)
+    gaps = np.linspace(-0.1, 1.1, 60) * end
+    other = question("bridge", pl.Pair(1e-3, 1.2), 0.0, suction=1.0)  # which leaves its state behind
+    _, found = answers_of([other, question("bridges", pair, gaps.tolist(), suction=5e3)])
+    bridges = pl.bridge(pair, gaps, suction=5e3, liquid=liquid)
+    assert [answer is not None for answer in found] == bridges.exists.tolist()
+    forces = [answer["force"] if answer else 0.0 for answer in found]
+    np.testing.assert_allclose(forces, bridges.force, rtol=1e-11)
+
+
+@NODE
+def test_the_page_shows_what_its_script_prints(folder):
+    blocks = code_blocks((ROOT / "docs" / "howto" / "javascript.md").read_text(encoding="utf-8"))
+    script, printed = next(pair for pair in pairwise(blocks) if pair[0].language == "js")
+    (folder / "page.mjs").write_text(script.code, encoding="utf-8")
+    done = subprocess.run(["node", "page.mjs"], cwd=folder, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == printed.code.strip()
+
+
+@NODE
+def test_what_is_no_question_is_refused(answers_of):
+    pair = pl.Pair(50e-6)
+    good = question("bridge", pair, 1e-6, suction=5e3)
+    cases = {
+        "RangeError: pair, separation, suction or volume: out of range": [
+            question("bridge", pair, 1e-6, volume=-1.0),
+            question("bridge", pair, -1e-4, suction=5e3),
+            question("bridge", pair, 1e-6, tension=0.0, suction=5e3),
+        ],
+        "TypeError: give suction or volume, one of them": [
+            question("bridge", pair, 1e-6),
+            question("rupture", pair, suction=1.0, volume=1.0),
+        ],
+        "TypeError: radius: give a number, or one for each solid": [
+            {"ask": "bridge", "given": [{"radius": radius}, 0.0, good["given"][2]]} for radius in ("x", [1, 2, 3], None)
+        ],
+    }
+    asked = [case for group in cases.values() for case in group]
+    wanted = [message for message, group in cases.items() for _ in group]
+    assert answers_of(asked) == wanted
+
+
+def test_the_module_is_small_and_asks_its_host_for_elementary_functions_alone(folder):
+    assert (folder / wasm.MODULE).stat().st_size < 100e3
+    script = (folder / wasm.SCRIPT).read_text()
+    assert f"by Pendular {pl.__version__} " in script
+    assert "$${" not in script
+
+
+def test_what_is_missing_is_told_in_one_line(tmp_path, monkeypatch):
+    monkeypatch.setattr(wasm, "linker", lambda: None)
+    with pytest.raises(
+        ValueError, match=r"^wasm: needs wasm-ld, which links it; apt-get install lld, or brew install lld$"
+    ):
+        wasm.write(tmp_path)
+    failing = tmp_path / "wasm-ld"
+    failing.write_text("#!/bin/sh\necho 'no such symbol' >&2\nexit 1\n")
+    failing.chmod(0o755)
+    monkeypatch.setattr(wasm, "linker", lambda: str(failing))
+    with pytest.raises(ValueError, match=r"^wasm: .*wasm-ld cannot link the module: no such symbol$"):
+        wasm.write(tmp_path)
