@@ -48,6 +48,7 @@ _OPTIONS = {
     "surface_tension": "surface-tension",
     "molar_volume": "molar-volume",
     "name": "liquid",
+    "force_error": "force-error",
 }
 _ADVICE = {
     "make Liquid(surface_tension=...)": "give surface-tension in place of the name",

@@ -199,11 +199,12 @@ def warnings_in_one_line() -> Iterator[None]:
     """Print each warning of the library once, and no warning of any other."""
     from ...ask.face import ConvergenceWarning
     from ...ask.liquid import KelvinWarning
+    from ...fitting.fitting import FitWarning
     from ...packing.heap import PackingWarning
 
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("ignore")
-        for category in (KelvinWarning, ConvergenceWarning, PackingWarning):
+        for category in (KelvinWarning, ConvergenceWarning, FitWarning, PackingWarning):
             warnings.simplefilter("always", category)
         yield
     for message in dict.fromkeys(str(warning.message) for warning in caught):
