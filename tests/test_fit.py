@@ -228,8 +228,10 @@ def test_a_law_puts_its_own_error_into_the_angle():
     )
     assert exact.values["contact_angle"] == pytest.approx(0.5, abs=1e-6)
     assert 0.002 < abs(law.values["contact_angle"] - 0.5) < 0.2
-    assert math.isnan(law.rupture_separation)
+    assert law.rupture_separation == pytest.approx(END, rel=0.1)
     assert law.predicted(wide) == pytest.approx(law.fitted)
+    silent = pl.fit(wide, force, BEADS, volume=VOLUME, liquid=WATER, free=exact.free, method="lambert2008")
+    assert math.isnan(silent.rupture_separation)
 
 
 def test_which_control_made_a_curve():
@@ -290,7 +292,7 @@ BAD = {
     r"bounds\[volume\]: 3 is not a pair": {"bounds": {"volume": 3}},
     r"start: 'volume' is not one of": {"start": {"volume": 1.0}},
     "method: 'toro' is neither": {"method": "toro"},
-    "rupture: is no datum for the law": {"method": "willett2000", "rupture": "end"},
+    "rupture: is no datum for the law": {"method": "lambert2008", "rupture": "end"},
     "loss: 'mean' is not one of": {"loss": "mean"},
     "starts: 0.0 is not >= 1": {"starts": 0},
     "pair: an array of radii": {"pair": pl.Pair([1e-3, 2e-3], 0.3)},

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..ask.by_law import RangeWarning
-from ..ask.face import bridge
+from ..ask.face import bridge, rupture
 from ..ask.liquid import Liquid
 from ..ask.pair import Pair
 from ..ask.problem import Control, Problem, reduce
@@ -22,6 +22,7 @@ from ..exact import batch
 from ..exact.equations import VOLUME
 from ..exact.sensitivities import Rates, rates_of_force
 from ..exact.state import State
+from ..laws import laws
 from .unknowns import Unknown, inner, outer
 
 __all__ = ["Data", "Ends", "Model", "Prediction", "ends_at", "predict", "predict_by_law"]
@@ -31,6 +32,7 @@ Bools = NDArray[np.bool_]
 
 _STEP = 1e-4  # of a variable, for rates by differences
 _TOUCHING = 1e-3  # way beyond rupture that is none, over the length of the curve
+_JUST_BEFORE = 1e-9  # rupture, in parts of its distance
 _LEAST_LEFT = 1e-3  # of a volume that evaporates
 _LAMBDA, _SEPARATION = State._fields.index("force"), State._fields.index("separation")
 
@@ -71,6 +73,12 @@ class Model(NamedTuple):
                 value = float(np.exp(variable))
             moved.update(dict.fromkeys(unknown.moves, value))
         return moved
+
+    @property
+    def knows_rupture(self) -> bool:
+        """Whether a rupture distance is known under this control."""
+        law = laws[self.method] if self.method != "exact" else None
+        return law is None or ("rupture" in law.gives and law.control == self.control)
 
     @property
     def start(self) -> Floats:
@@ -198,22 +206,24 @@ def _as_measured(
 
 def ends_at(model: Model, data: Data, variables: Floats, *, with_rates: bool) -> Ends:
     """Rupture distance and the force there; their rates by differences, for a pitchfork has no others."""
-    count = len(model.unknowns)
-    steps = np.vstack([np.zeros(count), _STEP * np.eye(count), -_STEP * np.eye(count)])
-    for column, unknown in enumerate(model.unknowns):
-        if unknown.kind == "cosine":  # not beyond 1
-            steps[:, column] -= max(variables[column] + _STEP - 1.0, 0.0) * (steps[:, column] != 0.0)
-    asked = np.asarray(variables) + (steps if with_rates else steps[:1])
+    base = np.asarray(variables, dtype=np.float64)
+    asked = _beside(model, base)[0] if with_rates else base[None, :]
     problems = [_problem(model, model.at(row), None, data.last_time) for row in asked]
     states, _ = batch.answer(batch.RUPTURE, problems[0].held, np.concatenate([problem.rows for problem in problems]))
     length = np.array([problem.length.item() for problem in problems])
     tension = np.array([model.at(row)["surface_tension"] for row in asked])
     separation = np.nan_to_num(states[:, _SEPARATION] * length)
     force = np.nan_to_num(2.0 * np.pi * tension * length * states[:, _LAMBDA])
-    if not with_rates:
+    return _ends_of(separation, force, asked)
+
+
+def _ends_of(separation: Floats, force: Floats, asked: Floats) -> Ends:
+    """Ends at the first of several sets of variables, and the rates that the others tell."""
+    count = asked.shape[1]
+    if len(asked) == 1:
         return Ends(separation.item(), force.item(), np.zeros(count), np.zeros(count))
     forth, back = slice(1, count + 1), slice(count + 1, None)
-    wide = 2.0 * _STEP
+    wide = np.diag(asked[forth] - asked[back])
     return Ends(
         float(separation[0]),
         float(force[0]),
@@ -223,40 +233,57 @@ def ends_at(model: Model, data: Data, variables: Floats, *, with_rates: bool) ->
 
 
 def predict_by_law(model: Model, data: Data, variables: Floats, *, with_rates: bool) -> Prediction:
-    """Force by a law, and its rates by differences; a law that says nothing counts as no bridge."""
-    count = len(model.unknowns)
+    """Force by a law, and its rates by differences.
+
+    Beyond the rupture distance of the law, if it gives one, its force is that at the last place before.
+    """
     base = np.asarray(variables, dtype=np.float64)
-    steps = _STEP * np.eye(count) if with_rates else np.empty((0, count))
-    ahead = base + steps
-    for column, unknown in enumerate(model.unknowns[: len(steps)]):
+    count = len(base)
+    asked, wide = _beside(model, base) if with_rates else (base[None, :], np.empty(0))
+    force, is_known, ends = _force_by_law(model, data, asked)
+    rates = np.zeros((data.separation.size, count))
+    if with_rates:
+        rates = ((force[1 : count + 1] - force[count + 1 :]) / wide[:, None]).T
+    reached = is_known[0]
+    if ends is not None:
+        place = data.separation + model.at(base)["offset"]
+        reached = reached | (place - ends.separation < _TOUCHING * np.ptp(place))
+    return _as_measured(
+        model, data, model.at(base), force[0], rates, int(np.count_nonzero(~reached & ~data.broken)), ends
+    )
+
+
+def _beside(model: Model, base: Floats) -> tuple[Floats, Floats]:
+    """Variables, and sets with one of them a step ahead, and a step behind; how far these are apart."""
+    steps = _STEP * np.eye(base.size)
+    ahead, behind = base + steps, base - steps
+    for column, unknown in enumerate(model.unknowns):
         if unknown.kind == "cosine":
             ahead[column, column] = min(ahead[column, column], 1.0)
-    force, is_known = _force_by_law(model, data, [base, *(base - steps), *ahead])
-    rates = np.zeros((data.separation.size, count))
-    for column in range(len(steps)):
-        behind, forth = 1 + column, 1 + count + column
-        # next to where a law ends, differences to one side
-        low = np.where(is_known[behind], base[column] - _STEP, base[column])
-        high = np.where(is_known[forth], ahead[column, column], base[column])
-        change = np.where(is_known[forth], force[forth], force[0]) - np.where(is_known[behind], force[behind], force[0])
-        rates[:, column] = np.where(is_known[0] & (high > low), change / np.maximum(high - low, 1e-300), 0.0)
-    unreached = int(np.count_nonzero(~is_known[0] & ~data.broken))
-    return _as_measured(model, data, model.at(base), force[0], rates, unreached, None)
+    return np.vstack([base, ahead, behind]), np.diag(ahead - behind)
 
 
-def _force_by_law(model: Model, data: Data, asked: Sequence[Floats]) -> tuple[Floats, Bools]:
-    """Force of the bridge at several sets of variables, a row each, and where the law says that there is one."""
+def _force_by_law(model: Model, data: Data, asked: Floats) -> tuple[Floats, Bools, Ends | None]:
+    """Force at several sets of variables, a row each; where the law says that there is a bridge; where that ends."""
     sets = [model.at(row) for row in asked]
 
     def column(name: str) -> Floats:
         return np.array([numbers[name] for numbers in sets])[:, None]
 
     pair = Pair((column("radius1"), column("radius2")), (column("contact_angle1"), column("contact_angle2")))
-    held = np.stack([_held_values(s, model.control, data.time, model.liquid.surface_tension) for s in sets])
+    tension = model.liquid.surface_tension
+    place = data.separation + column("offset")
+    ends = None
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
-        known: dict[str, Any] = {model.control: held}
-        answer = bridge(pair, data.separation + column("offset"), **known, liquid=model.liquid, method=model.method)
-    scale = column("surface_tension") / model.liquid.surface_tension
-    force = np.where(data.broken, 0.0, np.nan_to_num(np.asarray(answer.force)) * scale)
-    return force, np.asarray(answer.exists)
+        if model.knows_rupture:
+            last = np.stack([_held_values(numbers, model.control, data.last_time, tension) for numbers in sets])
+            known: dict[str, Any] = {model.control: last, "liquid": model.liquid, "method": model.method}
+            distance = np.asarray(rupture(pair, **known).separation)
+            place = np.minimum(place, distance * (1.0 - _JUST_BEFORE))
+            ends = _ends_of(distance[:, 0], np.zeros(len(sets)), asked)
+        held = np.stack([_held_values(numbers, model.control, data.time, tension) for numbers in sets])
+        known = {model.control: held, "liquid": model.liquid, "method": model.method}
+        answer = bridge(pair, place, **known)
+    force = np.nan_to_num(np.asarray(answer.force)) * column("surface_tension") / tension
+    return np.where(data.broken, 0.0, force), np.asarray(answer.exists), ends

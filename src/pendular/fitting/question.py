@@ -115,8 +115,6 @@ def model_of(
     if method != "exact" and (not isinstance(method, str) or method not in laws or "force" not in laws[method].gives):
         able = ", ".join(name for name, law in laws.items() if "force" in law.gives)
         raise ValueError(f"method: {method!r} is neither 'exact' nor one of the laws that give a force, {able}")
-    if method != "exact" and data.rupture is not None:
-        raise ValueError(f"rupture: is no datum for the law {method!r}; 'exact' knows it")
     numbers = (control.value, *pair.radii, *pair.contact_angles)
     if any(np.ndim(number) for number in numbers):
         raise ValueError(f"pair: an array of radii, angles or {named} is given where single numbers are needed")
@@ -136,8 +134,14 @@ def model_of(
     scales["least"] = float(data.separation[~data.broken].min())
     if "evaporation_rate" in names:
         scales["evaporation_rate"] = question["volume"] / max(float(np.ptp(data.time)), 1e-300)
+    if method != "exact" and "offset" in names:  # laws know no overlap
+        low, high = limits.get("offset", (-math.inf, math.inf))
+        limits["offset"] = (max(low, -scales["least"]), min(high, 10.0 * span))
     unknowns = tuple(unknown_of(name, question, liquid, scales, limits.get(name)) for name in names)
-    return Model(question, unknowns, control.name, liquid, method)
+    model = Model(question, unknowns, control.name, liquid, method)
+    if data.rupture is not None and not model.knows_rupture:
+        raise ValueError(f"rupture: is no datum for the law {method!r}, which gives none at constant {control.name}")
+    return model
 
 
 def _mapping(name: str, value: Any) -> dict[str, Any]:

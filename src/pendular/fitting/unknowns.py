@@ -37,6 +37,7 @@ NAMES = tuple(UNITS)
 
 _SINGLE = ("1", "2")
 _FARTHEST = 1e3  # of a positive number from its guess, as a factor
+_WETS = 1.0 - 1e-12  # cosine of an angle of nothing
 _STRAIGHT = math.pi * (1.0 - 1e-9)  # largest contact angle
 
 
@@ -79,7 +80,7 @@ def inner(unknown: Unknown, value: float) -> float:
 def outer(unknown: Unknown, variable: float) -> float:
     """The value of a variable."""
     if unknown.kind == "cosine":
-        return math.acos(max(-1.0, min(1.0, variable)))
+        return 0.0 if variable > _WETS else math.acos(max(-1.0, variable))
     if unknown.kind == "log":
         return math.exp(variable)
     if unknown.kind == "humidity":

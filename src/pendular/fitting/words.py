@@ -34,7 +34,8 @@ def value_words(fit: Fit, name: str) -> tuple[str, str]:
         size = max(abs(value), error if math.isfinite(error) else 0.0)
         factor, unit = _scale(size, UNITS[name])
     if name in fit.upper:
-        return f"{factor * value:.3g}{unit}", f"below {factor * fit.upper[name]:.3g}{unit} (95 %)"
+        places = max(1 - math.floor(math.log10(factor * fit.upper[name])), 0)
+        return f"{factor * value:.{places}f}{unit}", f"below {factor * fit.upper[name]:.{places}f}{unit} (95 %)"
     return _rounded(value, error, factor, unit)
 
 
