@@ -213,6 +213,14 @@ def test_what_the_data_do_not_tell_apart_is_named():
     assert "evaporation_rate: has no effect on these data" in pulled.notes
 
 
+@pytest.mark.parametrize("zero", [0.7e-3, -3e-3])
+def test_the_zero_of_the_stage_may_be_anywhere(zero):
+    found = fitted(GAP + zero, CURVE, pair=pl.Pair(1e-3, 0.3))
+    assert found.values == pytest.approx({"contact_angle": 0.5, "volume": VOLUME, "offset": -zero}, rel=1e-4)
+    law = fitted(GAP + zero, CURVE, pair=pl.Pair(1e-3, 0.3), method="willett2000")
+    assert law.values["offset"] == pytest.approx(-zero, abs=0.05 * END)
+
+
 def test_bounds_hold_and_are_told():
     found = fitted(free=("contact_angle", "volume"), bounds={"volume": (0.5 * VOLUME, 0.9 * VOLUME)})
     assert found.values["volume"] <= 0.9 * VOLUME

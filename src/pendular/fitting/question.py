@@ -13,13 +13,14 @@ from ..ask.problem import Control
 from ..ground.check import in_range, one_of, quantity, scalar
 from ..laws import laws
 from .model import Data, Model
-from .unknowns import NAMES, UNITS, unknown_of
+from .unknowns import NAMES, UNITS, first_offset, unknown_of
 
 __all__ = ["INSTRUMENT", "curve_of", "errors_given", "model_of"]
 
 Floats = NDArray[np.float64]
 
 INSTRUMENT = {"offset": 0.0, "force_zero": 0.0, "force_scale": 1.0, "base_slope": 0.0, "evaporation_rate": 0.0}
+_CLOSEST_OF_LAW = 1e-3  # separation over the length of the curve; laws know no overlap
 _STEEP = 100.0  # largest force over the length of the curve, by which a curve beyond the rupture of its model is judged
 _NEIGHBOURS = 3  # steps before and after one, by which it is judged whether it is a jump
 _CLEAR_JUMP = 6.0  # drop of the force beyond its neighbours, over the median of such, that is a rupture
@@ -134,9 +135,10 @@ def model_of(
     scales["least"] = float(data.separation[~data.broken].min())
     if "evaporation_rate" in names:
         scales["evaporation_rate"] = question["volume"] / max(float(np.ptp(data.time)), 1e-300)
-    if method != "exact" and "offset" in names:  # laws know no overlap
-        low, high = limits.get("offset", (-math.inf, math.inf))
-        limits["offset"] = (max(low, -scales["least"]), min(high, 10.0 * span))
+    if method != "exact":
+        scales["closest"] = _CLOSEST_OF_LAW * span
+    if "offset" in names and "offset" not in _mapping("start", start):
+        question["offset"] = first_offset(question, scales)
     unknowns = tuple(unknown_of(name, question, liquid, scales, limits.get(name)) for name in names)
     model = Model(question, unknowns, control.name, liquid, method)
     if data.rupture is not None and not model.knows_rupture:

@@ -148,7 +148,9 @@ def minimum_of(model: Model, data: Data, errors: Floats, loss: Loss, starts: int
     if starts > 1:
         few = _few_of(data)
         scan = Misses(model, few, errors[_chosen(data)])
-        tried = [_searched(scan, start, low, high, loss, _SCAN) for start in _starts(model, first, low, high, starts)]
+        tried = [
+            _searched(scan, start, low, high, loss, _SCAN) for start in _starts(model, data, first, low, high, starts)
+        ]
         likeliest, evaluations = _apart(sorted(tried, key=lambda one: float(one.cost))), scan.evaluations
     polished = [_searched(misses, place, low, high, loss, _POLISH) for place in likeliest]
     best = min(polished, key=lambda one: float(one.cost))
@@ -204,12 +206,19 @@ def limits_of(model: Model) -> tuple[Floats, Floats]:
     return ends.min(axis=1), ends.max(axis=1)
 
 
-def _starts(model: Model, first: Floats, low: Floats, high: Floats, count: int) -> list[Floats]:
-    """Places to start from: the guess, and others about it; angles anywhere up to a right one."""
+def _starts(model: Model, data: Data, first: Floats, low: Floats, high: Floats, count: int) -> list[Floats]:
+    """Places to start from: the guess, and others about it; angles anywhere up to a right one.
+
+    Half of them begin in contact, for the zero of a stage may be anywhere.
+    """
     random = np.random.default_rng(_SEED)
     starts = [first]
-    for _ in range(count - 1):
-        place = first.copy()
+    touching = first.copy()
+    for i, unknown in enumerate(model.unknowns):
+        if unknown.name == "offset":
+            touching[i] = -float(data.separation.min()) / unknown.scale
+    for number in range(count - 1):
+        place = (touching if number % 2 else first).copy()
         for i, unknown in enumerate(model.unknowns):
             if unknown.kind == "cosine":
                 place[i] = np.cos(random.uniform(0.0, 0.5 * np.pi))

@@ -12,7 +12,7 @@ from ..ask.liquid import Liquid, suction_from_humidity
 from ..ask.problem import DEEPEST_OVERLAP, MOST_SUCTION, VOLUMES
 from ..ground.check import in_range, scalar
 
-__all__ = ["NAMES", "UNITS", "Kind", "Unknown", "inner", "outer", "slope", "unknown_of"]
+__all__ = ["NAMES", "UNITS", "Kind", "Unknown", "first_offset", "inner", "outer", "slope", "unknown_of"]
 
 Kind = Literal["cosine", "log", "humidity", "linear"]
 
@@ -161,6 +161,26 @@ def _moved_by(name: str, question: Mapping[str, float]) -> tuple[str, ...]:
     return both
 
 
+def first_offset(question: Mapping[str, float], scales: Mapping[str, float]) -> float:
+    """Guess of an offset: none, or where no bridge is as near, contact at the first point.
+
+    Examples
+    --------
+    >>> first_offset({"radius1": 1e-6, "radius2": 1e-6}, {"offset": 1e-6, "least": -2e-6})
+    2e-06
+    """
+    return 0.0 if _least_offset(question, scales) <= 0.0 else max(-scales["least"], _least_offset(question, scales))
+
+
+def _least_offset(question: Mapping[str, float], scales: Mapping[str, float]) -> float:
+    """The offset at which the first point is as near as bridges are known."""
+    smaller, span = min(question["radius1"], question["radius2"]), scales["offset"]
+    closest = scales.get("closest")
+    if closest is None:
+        closest = -0.99 * DEEPEST_OVERLAP * smaller if math.isfinite(smaller) else 1e-3 * span
+    return max(closest - scales["least"], -10.0 * span - abs(scales["least"]))
+
+
 def _domain(
     name: str, kind: Kind, guess: float, question: Mapping[str, float], scales: Mapping[str, float], scale: float
 ) -> tuple[float, float]:
@@ -171,8 +191,7 @@ def _domain(
         return 1e-6, 1.0 - 1e-12
     smaller = min(question["radius1"], question["radius2"])
     if name == "offset":
-        closest = -0.99 * DEEPEST_OVERLAP * smaller if math.isfinite(smaller) else 1e-3 * scale
-        return max(closest - scales["least"], -10.0 * scale), 10.0 * scale
+        return _least_offset(question, scales), 10.0 * scale + max(-scales["least"], 0.0)
     if kind == "linear":
         return -100.0 * scale, 100.0 * scale
     low, high = guess / _FARTHEST, guess * _FARTHEST
