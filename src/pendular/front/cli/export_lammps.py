@@ -11,13 +11,20 @@ from .export import export
 __all__ = ["lammps"]
 
 
-@export.command(epilog="\b\nExample:\n  pendular export lammps --out lammps-pendular")
+@export.command(epilog="\b\nExample:\n  pendular export lammps --out plugin --build")
 def lammps(
-    out: Annotated[Path, typer.Option(help="Write the sources into this folder: lammps-pendular.", metavar="DIR")],
+    out: Annotated[Path, typer.Option(help="Write the sources into this folder: plugin.", metavar="DIR")],
+    build: Annotated[
+        bool, typer.Option("--build", help="Build it with g++, against the LAMMPS that this Python has.")
+    ] = False,
 ) -> None:
     """Exact bridges inside LAMMPS: a plug-in as sources, with the one line that builds it."""
-    from ...codes.lammps.write import build_line, write
+    from ...codes import lammps as plugin
 
     with compiling_shown():
-        written = write(out)
-    typer.echo(f"{out}: {len(written)} files. Build the plug-in there:\n\n  cd {out} && {build_line()}")
+        if build:
+            made = plugin.build(out)
+            typer.echo(f"{made}: put this into the input of LAMMPS\n\n  plugin load {made}")
+            return
+        written = plugin.write(out)
+    typer.echo(f"{out}: {len(written)} files. Build the plug-in there:\n\n  cd {out} && {plugin.build_line()}")
