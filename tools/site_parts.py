@@ -14,6 +14,7 @@ from typing import Any
 
 import typer
 from tools.code_blocks import code_blocks, commands
+from tools.live_bridge import fragment
 from tools.site_pictures import PICTURES
 
 from pendular import bridge, rupture
@@ -37,6 +38,7 @@ def make(docs: Path) -> None:
     parts = {"fields": fields, "commands": command_pages, "claims": claims, "law_functions": law_functions}
     for name, part in parts.items():
         (made / f"{name}.md").write_text("\n".join(part()) + "\n", encoding="utf-8")
+    (made / "live_bridge.html").write_text(fragment(), encoding="utf-8")
     for name, draw in PICTURES.items():
         draw(made / f"{name}.svg")
     with contextlib.chdir(docs):
