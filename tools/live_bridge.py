@@ -1,4 +1,4 @@
-"""The bridge that moves on the front page: markup, script and solver in one fragment, which opens from a file as well."""
+"""The bridge that moves on the front page: a fragment with its solver, which opens from a file as well."""
 
 import base64
 import re
