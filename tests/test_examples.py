@@ -73,3 +73,15 @@ def test_work_of_the_pulls_is_that_of_their_force(capsys):
         assert float(potential) == pytest.approx(float(by_force), rel=1e-3)
     slow, fast = (float(work) for work, _ in works)
     assert 1.5 < fast / slow < 2.1  # twice in the limit of small bridges
+
+
+def test_the_truth_of_a_made_curve_is_found(capsys):
+    lines = printed_by("fit_curve.py", capsys).splitlines()
+    told = {line.partition(":")[0]: [float(x) for x in re.findall(r"[\d.]+", line.partition(":")[2])] for line in lines}
+    for fit in ("force alone", "and rupture"):
+        angle, error, volume, volume_error, offset, offset_error = told[fit]
+        assert abs(angle - 28.0) < 3.0 * error
+        assert abs(volume - 10.0) < 3.0 * volume_error
+        assert abs(offset - 3.0) < 3.0 * offset_error
+    assert told["and rupture"][1] < told["force alone"][1]
+    assert abs(told["by a law"][0] - 28.0) > 2.0 * told["by a law"][1]

@@ -16,7 +16,7 @@ Floats = NDArray[np.float64]
 
 VALLEY = 0.98  # correlation from which on the data hardly tell two unknowns apart
 _SINGULAR = 1e-5  # singular value of scaled columns, over the largest, that is rounding and differences
-_SECANTS = 2  # rounds of differences
+_SECANTS, _LEAST_ROOM = 2, 0.05  # rounds of differences, and the shortest, in standard errors
 _PART = 1e-2  # of an unknown in a direction in which nothing changes, from which on it is not fixed
 _NEAR = 2.0  # standard errors of a cosine within which an angle may be 0
 _AT_BOUND, _FAR = 1e-2, 5.0  # standard errors: at the bound of a cosine, and far beyond it
@@ -96,17 +96,24 @@ def secant_rates(
             return jacobian
         axes = math.sqrt(widened) * vectors / np.sqrt(values) / size[:, None]
         columns = [_secant(residuals, variables, axis, low, high) for axis in axes.T]
+        if np.isnan(columns).any():
+            return jacobian
         jacobian = np.column_stack(columns) @ np.linalg.inv(axes)
     return jacobian
 
 
 def _secant(residuals: Callable[[Floats], Floats], start: Floats, axis: Floats, low: Floats, high: Floats) -> Floats:
-    """Rate of residuals along an axis, over as much of one length of it both ways as the bounds leave."""
+    """Rate of residuals along an axis, over as much of one length of it both ways as the bounds leave.
+
+    NaN where they leave hardly any.
+    """
     with np.errstate(divide="ignore", invalid="ignore"):
         room = np.where(axis > 0.0, (high - start) / axis, np.where(axis < 0.0, (low - start) / axis, np.inf))
         back = np.where(axis > 0.0, (start - low) / axis, np.where(axis < 0.0, (start - high) / axis, np.inf))
     forth, back_to = min(1.0, float(room.min())), -min(1.0, float(back.min()))
     width = forth - back_to
+    if width < _LEAST_ROOM:
+        return np.full(residuals(start).shape, np.nan)
     return (residuals(start + forth * axis) - residuals(start + back_to * axis)) / width
 
 
@@ -136,7 +143,7 @@ def _valley(unknowns: Sequence[Unknown], direction: Floats, silent: NDArray[np.b
     order = np.argsort(-np.abs(direction))
     if silent[order[0]] or len(names) == 1:
         return f"{names[order[0]]}: has no effect on these data"
-    share = [i for i in order if abs(direction[i]) > _PART * abs(direction[order[0]])]
+    share = sorted(i for i in order if abs(direction[i]) > _PART * abs(direction[order[0]]))
     told = " and ".join(names[i] for i in share[:2])
     more = f", with {', '.join(names[i] for i in share[2:])}" if len(share) > 2 else ""
     return f"{told}: the data do not tell them apart{more}; fix one of them"

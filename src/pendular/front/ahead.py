@@ -8,8 +8,10 @@ import numpy as np
 from ..ask.face import bridge, curve, rupture
 from ..ask.liquid import Liquid
 from ..ask.pair import Pair
+from ..exact.batch import STABLE, answer
 from ..exact.branch import branches
-from ..exact.equations import SUCTION
+from ..exact.equations import SUCTION, VOLUME
+from ..exact.sensitivities import rates_of_force
 from ..ground.rows import by_machine_code
 from ..laws import force_star, laws, rupture_star, rupture_work_star
 from ..packing.forces import contact_forces
@@ -24,6 +26,7 @@ _GAPS = np.array([1e-6, 2e-6])
 
 # Nearly equal spheres at a small suction: no leaps from a guess lead to their rupture, which the whole solver seeks.
 _NOT_FORETOLD = np.array([[0.06310137, 1.99986632, 0.35, 1.3368e-4, 0.35]])
+_QUESTION = np.array([[0.05, 1e-3, 1.0, 0.35, 1.0, 0.35]])
 
 
 class Made(NamedTuple):
@@ -96,6 +99,10 @@ def _ask_heap() -> None:
     _ = found.stress_shares, found.meetings, found.interface_area
 
 
+def _ask_fit() -> None:
+    rates_of_force(VOLUME, _QUESTION, answer(STABLE, VOLUME, _QUESTION)[0])
+
+
 QUESTIONS: dict[str, Callable[[], None]] = {
     "bridges and rupture": _ask_bridges,
     "curves": _ask_curve,
@@ -103,4 +110,5 @@ QUESTIONS: dict[str, Callable[[], None]] = {
     "tables": _ask_table,
     "laws": _ask_laws,
     "heaps": _ask_heap,
+    "fits": _ask_fit,
 }
