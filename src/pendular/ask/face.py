@@ -1,17 +1,20 @@
 """The public face: a bridge between two solids, its rupture and its force curve, in SI units."""
 
+from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..ground.check import one_of, whole_number
+from ..ground.check import instance, one_of, quantity, whole_number
 from ..laws import laws
 from .by_angle import bridge_by_angle
 from .by_dataset import bridge_by_dataset, rupture_by_dataset
 from .by_law import bridge_by_law, rupture_by_law
 from .by_table import bridge_by_table, rupture_by_table
+from .fields import checked_fields, narrowed
 from .liquid import HUMIDITY_UNCERTAINTY, Liquid, humidity_from_suction, suction_from_humidity, warn_kelvin
+from .many import many_bridges
 from .pair import Pair, PerSolid, check_pair, refuse_planes
 from .problem import (
     Asked,
@@ -47,6 +50,8 @@ def bridge(
     branch: Literal["stable", "unstable"] = "stable",
     limit: Limit = "stability",
     method: str = "exact",
+    fields: Sequence[str] | None = None,
+    near: Bridge | None = None,
 ) -> Bridge:
     r"""Capillary bridge between two solids at a separation, or of a half-filling angle, exactly.
 
@@ -84,6 +89,12 @@ def bridge(
         stiffness, volume and suction, the data base and a law the force only. A law of the other control is asked with
         the volume or the suction of the exact bridge; one at constant suction has no answer where that suction would
         not hold the bridge. Where a method has no answer the force is NaN and ``exists`` False.
+    fields : sequence of str, optional
+        Names of the fields that are wanted; all others are NaN, or False, but for those that tell of existence and
+        stability. For arrays, what is not wanted is not computed: ``("force",)`` costs about two thirds.
+    near : Bridge, optional
+        Bridges of the same arrays a little before, as the step before of a simulation answered them, with all fields or
+        near others: those that stood are looked for from where they were. It changes no answer, but its cost.
 
     Returns
     -------
@@ -125,6 +136,7 @@ def bridge(
     """
     one_of("branch", branch, ("stable", "unstable"))
     one_of("limit", limit, ("stability", "fold"))
+    wanted = checked_fields(fields)
     check_pair(pair)
     control = control_of(suction, volume, humidity, liquid)
     is_approximate = _is_approximate(method, pair)
@@ -137,15 +149,19 @@ def bridge(
         if humidity is not None:
             found = np.where(answer.exists, answer.separation, 0.0)
             _judge_humidity(pair, found, control, liquid, branch, answer)
-        return answer
+        return narrowed(answer, wanted)
     if separation is None:
         raise ValueError("separation: None given; a separation or a half_filling_angle is needed")
     if branch == "stable":
         _refuse_drained_planes(pair, control, humidity)
-    problem = reduce(pair, control, liquid, separation)
     if is_approximate:
-        return _BRIDGES[method](problem) if method in _BRIDGES else bridge_by_law(problem, method)
-    answer = solve(problem, branch, limit)
+        problem = reduce(pair, control, liquid, separation)
+        return narrowed(_BRIDGES[method](problem) if method in _BRIDGES else bridge_by_law(problem, method), wanted)
+    gap = quantity("separation", separation, "m")
+    if near is not None:
+        instance("near", near, Bridge)
+    many = many_bridges(pair, control, liquid, gap, limit, wanted, near) if branch == "stable" else None
+    answer = many or narrowed(solve(reduce(pair, control, liquid, gap), branch, limit), wanted)
     if humidity is not None:
         _judge_humidity(pair, separation, control, liquid, branch, answer)
     return answer

@@ -17,6 +17,7 @@ from ..exact.follow import BRANCH_ENDS, FOLDS
 from ..exact.state import State
 from ..ground.check import broadcast, in_range, plain, quantity
 from ..ground.warn import warn
+from .domain import DEEPEST_OVERLAP, LEAST_VOLUME, MOST_SUCTION, MOST_VOLUME, NARROWEST
 from .liquid import Liquid, suction_from_humidity
 from .pair import Pair, check_pair, has_planes
 from .result import FIELDS, Bridge
@@ -27,13 +28,7 @@ Asked = Literal["stable", "unstable", "upper", "lower"]
 Limit = Literal["stability", "fold"]
 
 _PER_SOLID = ("contact_radius", "half_filling_angle", "wetted_area", "capillary_tensor")
-DEEPEST_OVERLAP = 0.5  # over the smaller radius
 LIKELY_BETWEEN_PLANES = 0.3  # separation over the cube root of the volume
-NARROWEST = 1e-5  # and the least that is asked
-VOLUMES, MOST_SUCTION = (
-    (1e-30, 1e4),
-    1e13,
-)  # the domain, over R̄³ and γ/R̄: volumes, and the largest suction or pressure
 
 ASKED: dict[Asked, int] = {
     "stable": batch.STABLE,
@@ -193,7 +188,8 @@ def _refuse_beyond_domain(
                 f"separation: {np.ravel(separation)[i]:.6g} m is not >= {np.ravel(lowest)[i]:.6g}, {NARROWEST:g} of "
                 f"the cube root of the volume, where the domain between two planes ends"
             )
-        unit, low, high, symbol, scale = mean_radius * mean_radius * mean_radius, *VOLUMES, "m^3", "R³"
+        unit, symbol, scale = mean_radius * mean_radius * mean_radius, "m^3", "R³"
+        low, high = LEAST_VOLUME, MOST_VOLUME
     else:
         unit, low, high = liquid.surface_tension / mean_radius, -MOST_SUCTION, MOST_SUCTION
         symbol, scale = "Pa", "γ/R"
@@ -236,9 +232,7 @@ def restore(
     It has the control that was asked, and the separation if one was, not those that the solver met to the last digits.
     """
     shape = problem.shape + extra
-    failed = int(np.count_nonzero(statuses == FAILED))
-    if failed:
-        warn(f"the solver failed for {failed} of {statuses.size} bridges", ConvergenceWarning)
+    warn_of_failures(statuses)
     asked: dict[str, Any] = {control_name(problem): control_si(problem)}
     if separation is not None:
         asked["separation"] = separation
@@ -252,6 +246,13 @@ def restore(
     units = np.broadcast_to(problem.length.reshape(apart), shape)
     met = {name: value.reshape(apart) for name, value in asked.items()}
     return _in_si(state, rows, units, statuses.reshape(shape), met, problem.surface_tension, _MANY)
+
+
+def warn_of_failures(statuses: NDArray[np.int8]) -> None:
+    """Warn where the solver failed."""
+    failed = int(np.count_nonzero(statuses == FAILED))
+    if failed:
+        warn(f"the solver failed for {failed} of {statuses.size} bridges", ConvergenceWarning)
 
 
 def _in_si(state: State, row: Any, unit: Any, status: Any, met: dict[str, Any], gamma: float, way: _Way) -> Bridge:

@@ -10,21 +10,20 @@ from ..ground.compile import kernel
 from .algebra import Four
 from .curve import Curve, Stance
 from .ends import just_before, lower_end, quick_end, stable_bridge, unstable_bridge, upper_end
-from .equations import SUCTION
+from .equations import SUCTION, Held
 from .follow import Nodes, Walk
 from .guess import guess_at
 from .locate import ARRIVED, ENDED, FOLD, LOST, PITCHFORK
 from .morph import Task, held_of
 from .newton import newton_to
 from .search import is_symmetric
-from .state import Description, State, describe
+from .state import UNSTABLE_DIRECTIONS, Description, describe
 
 Rows = NDArray[np.float64]
 
 # What is asked: the bridge on the stable branch, beyond it, the end of the stable branch, its lower end.
 STABLE, UNSTABLE, RUPTURE, LOWER_END = 0, 1, 2, 3
 FOUND, NO_BRIDGE, FAILED = 0, 1, 2
-STIFFNESS, UNSTABLE_DIRECTIONS = State._fields.index("stiffness"), State._fields.index("unstable_directions")
 
 _MET = 1e-13  # largest miss of the end of a branch, over the length of the arc, that is the end itself
 _ROUNDING = 1e-15  # of a sum of cosines
@@ -127,16 +126,22 @@ def answer_to(asked: int, limit: int, task: Task, nodes: Nodes) -> Answer:
 
 
 @kernel
-def holds_nothing(task: Task) -> bool:
+def holds_nothing_between(held: Held) -> bool:
     """Whether no stable bridge is possible at any separation.
 
     Under suction the solids have to be wetted; and no catenoid, of suction 0, runs out along a plane.
     """
-    if task.control != SUCTION or task.value < 0.0:
+    if held.control != SUCTION or held.value < 0.0:
         return False
-    wetting = math.cos(task.angle1) + math.cos(task.angle2)
-    floods = task.curvature1 + task.angle1 == 0.0 or task.curvature2 + task.angle2 == 0.0
-    return not wetting > _ROUNDING or (task.value == 0.0 and floods)
+    one, other = held.first, held.second
+    floods = one.curvature + one.contact_angle == 0.0 or other.curvature + other.contact_angle == 0.0
+    return not one.cos_angle + other.cos_angle > _ROUNDING or (held.value == 0.0 and floods)
+
+
+@kernel
+def holds_nothing(task: Task) -> bool:
+    """Whether no stable bridge is possible at any separation."""
+    return task.control == SUCTION and holds_nothing_between(held_of(task))
 
 
 @kernel

@@ -22,40 +22,54 @@ from .answers import (
     NO_BRIDGE,
     RUPTURE,
     STABLE,
-    STIFFNESS,
     UNSTABLE,
     Answer,
     answer_at_end,
     answer_to,
     directly_stored,
     holds_nothing,
+    holds_nothing_between,
     store_end,
 )
-from .equations import SUCTION, VOLUME
+from .arc import NOWHERE, Arc, arc_through
+from .direct import ALL, FORCE_ALONE, FORCE_TO_GO_ON, straight_stored
+from .equations import SUCTION, VOLUME, Held
 from .filling import MOST_FOUND, SEVERAL, Filling, store_filling
 from .follow import BRANCH_ENDS
 from .locate import ARRIVED, FOLD
 from .meridian import lay_meridian
-from .morph import Task
+from .morph import Task, held_of
 from .nucleus import nucleus_stored
-from .search import are_planes
-from .state import State
+from .search import are_alike, are_planes, is_symmetric
+from .solids import Solid
+from .state import HALF_LENGTH, STIFFNESS, State
+from .summit import summit_stored
 from .tracing import trace
 
 __all__ = [
+    "ALL",
     "FAILED",
+    "FORCE_ALONE",
+    "FORCE_TO_GO_ON",
     "FOUND",
     "LOWER_END",
+    "NOWHERE",
     "NO_BRIDGE",
+    "OPEN",
     "RUPTURE",
     "SEVERAL",
     "STABLE",
     "UNSTABLE",
+    "Held",
+    "Solid",
     "answer",
     "answer_filling",
     "answer_one",
+    "answer_rest",
+    "arc_through",
     "draw",
     "lay",
+    "straight_status",
 ]
 
 Rows = NDArray[np.float64]
@@ -63,6 +77,7 @@ Statuses = NDArray[np.int8]
 
 OPEN = -1  # status of a row that a part of the solver leaves to the whole of it
 
+_BEYOND = 1e-9  # over the length of the arc, of a separation that is beyond rupture for certain
 _MOST_NODES = 1200
 _CHUNK = 1024  # bridges that one thread takes at a time: some milliseconds, against which its start is nothing
 
@@ -89,18 +104,35 @@ def _can_hold(task: Task) -> bool:
 
 
 @kernel
-def _stable_stored(task: Task, row: Rows) -> int:
-    """Store the stable bridge to which Newton's method leads from a guess, else OPEN."""
+def straight_status(wanted: int, near: Arc, separation: float, held: Held, row: Rows) -> int:
+    """Store the stable bridge, or of it the force alone, to which the straight way leads, else OPEN."""
+    if held.control == SUCTION and held.first.curvature + held.second.curvature == 0.0:
+        return NO_BRIDGE
+    if holds_nothing_between(held):
+        return NO_BRIDGE
+    symmetric = are_alike(held.first, held.second)
+    return FOUND if straight_stored(near, separation, held, symmetric, wanted, row) else OPEN
+
+
+@kernel
+def _summit_stored(asked: int, limit: int, task: Task, row: Rows) -> int:
+    """Store a rupture that is beyond doubt, or tell that no bridge is beyond it; else OPEN."""
     if not _can_hold(task):
         return NO_BRIDGE
-    return FOUND if directly_stored(task, row) == FOUND else OPEN
+    if not summit_stored(held_of(task), is_symmetric(task), limit, row):
+        return OPEN
+    if asked == RUPTURE:
+        return FOUND if row[0] >= 0.0 else NO_BRIDGE
+    return NO_BRIDGE if task.separation - row[0] > _BEYOND * row[HALF_LENGTH] else OPEN
 
 
 @kernel
 def _end_stored(asked: int, limit: int, task: Task, row: Rows) -> int:
-    """Store a rupture to which leaps from a guess lead, or a bridge next to it, or tell that none is; else OPEN."""
+    """Store what Newton's method finds from a guess, or leaps to rupture, or tell that no bridge is; else OPEN."""
     if not _can_hold(task):
         return NO_BRIDGE
+    if asked == STABLE and directly_stored(task, row) == FOUND:
+        return FOUND
     end = answer_at_end(asked, limit, task)
     status = _stored(asked, end, row) if end.status == FOUND else end.status
     return OPEN if status == FAILED or (status != FOUND and end.event == ARRIVED) else status
@@ -122,8 +154,6 @@ def _bridge_stored(asked: int, limit: int, task: Task, nodes: Rows, row: Rows) -
         return nucleus_stored(task, nodes, row) if asked == UNSTABLE else NO_BRIDGE
     if holds_nothing(task):
         return NO_BRIDGE
-    if asked == STABLE and directly_stored(task, row) == FOUND:
-        return FOUND
     end = answer_to(asked, limit, task, nodes[:0])
     if end.status == FOUND:
         return _stored(asked, end, row)
@@ -135,7 +165,9 @@ def _bridge_stored(asked: int, limit: int, task: Task, nodes: Rows, row: Rows) -
 @kernel
 def answer_one(asked: int, limit: int, task: Task, nodes: Rows, row: Rows) -> int:
     """Store the answer to one question by all parts of the solver, each after those that are sooner; the status."""
-    status = _stable_stored(task, row) if asked == STABLE else OPEN
+    status = straight_status(ALL, NOWHERE, task.separation, held_of(task), row) if asked == STABLE else OPEN
+    if status == OPEN and asked in (STABLE, RUPTURE):
+        status = _summit_stored(asked, limit, task, row)
     if status == OPEN and asked in (STABLE, RUPTURE):
         status = _end_stored(asked, limit, task, row)
     if status == OPEN:
@@ -145,11 +177,26 @@ def answer_one(asked: int, limit: int, task: Task, nodes: Rows, row: Rows) -> in
     return status
 
 
-@entry(plain_cost=1.2e-3, patience=4.0)
-def stable_range(control: int, questions: Rows, states: Rows, statuses: Statuses, start: int, stop: int) -> None:
-    """Stable bridges of the rows for which Newton's method leads there from a guess; others stay OPEN."""
+@entry(plain_cost=5e-4, patience=4.0)
+def stable_range(
+    wanted: int, control: int, questions: Rows, states: Rows, statuses: Statuses, start: int, stop: int
+) -> None:
+    """Stable bridges of the rows to which the straight way leads; others stay OPEN."""
     for i in range(start, stop):
-        status = _stable_stored(task_of(questions[i], control), states[i])
+        task = task_of(questions[i], control)
+        status = straight_status(wanted, NOWHERE, task.separation, held_of(task), states[i])
+        statuses[i] = status
+        if status != FOUND:
+            states[i, :] = math.nan
+
+
+@entry(plain_cost=4e-3, patience=4.0)
+def summit_range(
+    asked: int, limit: int, control: int, questions: Rows, states: Rows, statuses: Statuses, start: int, stop: int
+) -> None:
+    """Ruptures of the rows that are beyond doubt, and bridges that are asked beyond them; others stay OPEN."""
+    for i in range(start, stop):
+        status = _summit_stored(asked, limit, task_of(questions[i], control), states[i])
         statuses[i] = status
         if status != FOUND:
             states[i, :] = math.nan
@@ -190,21 +237,36 @@ def bridge_range(
             states[i, :] = math.nan
 
 
-def answer(asked: int, control: int, questions: Rows, limit: int = BRANCH_ENDS) -> tuple[Rows, Statuses]:
+def answer(
+    asked: int, control: int, questions: Rows, limit: int = BRANCH_ENDS, wanted: int = ALL
+) -> tuple[Rows, Statuses]:
     """Answer rows of questions on all threads: their states and statuses.
+
+    Where the force of stable bridges is wanted alone, the states of most hold little more than that.
 
     Parts of the solver, soon compiled, answer nearly all; rows that one leaves open are asked of the next, and the last
     is the whole.
     """
-    count = len(questions)
-    states, statuses = np.empty((count, len(State._fields))), np.full(count, OPEN, np.int8)
-    asking = (questions, states, statuses)
+    states, statuses = np.empty((len(questions), len(State._fields))), np.full(len(questions), OPEN, np.int8)
     if asked == STABLE:
-        _over_open(stable_range, (control,), *asking)
+        _over_open(stable_range, (wanted, control), questions, states, statuses)
+    _answer_open(asked, control, questions, limit, states, statuses)
+    return states, statuses
+
+
+def answer_rest(asked: int, control: int, questions: Rows, limit: int) -> tuple[Rows, Statuses]:
+    """Answer rows of questions that the straight way has left open."""
+    states, statuses = np.empty((len(questions), len(State._fields))), np.full(len(questions), OPEN, np.int8)
+    _answer_open(asked, control, questions, limit, states, statuses)
+    return states, statuses
+
+
+def _answer_open(asked: int, control: int, questions: Rows, limit: int, states: Rows, statuses: Statuses) -> None:
+    asking = (questions, states, statuses)
     if asked in (STABLE, RUPTURE):
+        _over_open(summit_range, (asked, limit, control), *asking)
         _over_open(end_range, (asked, limit, control), *asking)
     _over_open(bridge_range, (asked, limit, control), *asking, Own(_room_for_nodes))
-    return states, statuses
 
 
 def _over_open(

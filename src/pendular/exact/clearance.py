@@ -2,8 +2,8 @@
 
 The equations know the solids at the contact circles only. Along the arc the curvature of the meridian is H/2 + λ/Y². A
 meridian that runs forward along the axis and is nowhere bent more tightly towards a solid than that solid itself cannot
-come back to it, nor one that nowhere is narrower than the contact circle. Where neither is certain, points are looked
-at.
+come back to it, nor one that nowhere is narrower than the contact circle, or as steep as the solid there. Where none is
+certain, points are looked at.
 """
 
 import math
@@ -13,7 +13,7 @@ from .algebra import Four
 from .equations import Held, System, curvature_of, force_of
 from .meridian import End, extreme_phases, middle_of, panel_of, panels_of
 from .quadrature import Cut, cuts_of, node_at
-from .solids import Solid, contact_with, depth_inside, half_filling_angle
+from .solids import Solid, contact_with, depth_inside, half_filling_angle, half_filling_cosine
 
 _MOST_TURN = 6.3  # |ω|: an arc of a whole wave
 _FARTHEST = 60.0  # |ln Ym| and |ln ℓ|
@@ -26,15 +26,21 @@ _GAUSS = ((-math.sqrt(0.6), 5.0 / 9.0), (0.0, 8.0 / 9.0), (math.sqrt(0.6), 5.0 /
 @kernel
 def radius_range(z: Four, system: System) -> tuple[float, float]:
     """Least and largest radius of the arc."""
-    least = min(system.first.radius, system.second.radius)
-    most = max(system.first.radius, system.second.radius)
     necks, bulges = extreme_phases(z)
-    if necks + bulges == 0:
-        return least, most
     middle, curvature = middle_of(z), curvature_of(z)
     ratio = math.hypot(1.0 + curvature * middle.real, curvature * middle.imag)
+    return radii_between(system, necks, bulges, force_of(z), curvature, ratio)
+
+
+@kernel
+def radii_between(
+    system: System, necks: int, bulges: int, force: float, curvature: float, ratio: float
+) -> tuple[float, float]:
+    """Least and largest radius of an arc with so many necks and bulges; the ratio is |1 + Hζ|."""
+    least = min(system.first.radius, system.second.radius)
+    most = max(system.first.radius, system.second.radius)
     if necks > 0:
-        least = min(least, 2.0 * abs(force_of(z)) / (1.0 + ratio))
+        least = min(least, 2.0 * abs(force) / (1.0 + ratio))
     if bulges > 0:
         most = max(most, (1.0 + ratio) / abs(curvature))
     return least, most
@@ -59,26 +65,39 @@ def opening_of(z: Four, system: System, held: Held) -> float:
 
 
 @kernel
-def _is_certain(end: End, solid: Solid, least: float, bend: float) -> bool:
-    """Whether a meridian that runs forward stays clear of a solid, by its least radius and its largest bend."""
-    cos_filling = solid.sin_angle * end.cos_slope + solid.cos_angle * end.sin_slope
-    return bend >= -solid.curvature or (end.radius <= least and cos_filling >= 0.0)
+def _is_certain(end: End, solid: Solid, least: float, bend: float, steepest: float) -> bool:
+    """Whether a meridian that runs forward stays clear of a solid.
+
+    By its largest bend, by its least radius, or as it nowhere is as steep as the solid at its contact circle, given the
+    cosine of its steepest slope: it lies beyond the tangent there.
+    """
+    cos_filling = half_filling_cosine(solid, end.cos_slope, end.sin_slope)
+    is_beyond = end.radius <= least or steepest > solid.curvature * end.radius
+    return bend >= -solid.curvature or (cos_filling >= 0.0 and is_beyond)
 
 
 @kernel
 def is_clear(z: Four, system: System, held: Held) -> bool:
     """Whether the meniscus enters neither solid."""
     least, most = radius_range(z, system)
-    force, half = force_of(z), 0.5 * curvature_of(z)
-    runs_forward = min(force - half * least * least, force - half * most * most) > 0.0
+    return is_clearly_outside(system, held, least, most, force_of(z), curvature_of(z)) or _stays_outside(
+        z, system, held
+    )
+
+
+@kernel
+def is_clearly_outside(system: System, held: Held, least: float, most: float, force: float, curvature: float) -> bool:
+    """Whether the bounds of its radius and its bend tell that a meniscus enters neither solid."""
+    half = 0.5 * curvature
+    at_least, at_most = force / least - half * least, force / most - half * most  # cosine of the slope
+    inside = -half * least * least < force < -half * most * most  # where the meridian is straight
+    steepest = 2.0 * math.sqrt(-half * force) if inside else min(at_least, at_most)
     bend = half + min(force / (least * least), force / (most * most))
-    if (
-        runs_forward
-        and _is_certain(system.first, held.first, least, bend)
-        and _is_certain(system.second, held.second, least, bend)
-    ):
-        return True
-    return _stays_outside(z, system, held)
+    return (
+        min(at_least, at_most) > 0.0
+        and _is_certain(system.first, held.first, least, bend, steepest)
+        and _is_certain(system.second, held.second, least, bend, steepest)
+    )
 
 
 @kernel

@@ -11,9 +11,9 @@ from typing import NamedTuple
 from ..ground.compile import kernel
 from .algebra import Four, distance, dot, largest, minors, moved, normal, scaled, solve4, unit_vector
 from .curve import Curve, Stance, corrected, set_out, stance_at, stance_of, with_unstable
-from .equations import SUCTION, Held, first_row, held_row, system_at
+from .equations import Held, first_row, held_row, system_at
 from .follow import BRANCH_ENDS, FOLDS, NOTHING, Nodes, Walk, back_from, beyond, follow
-from .guess import guess_at, rupture_at_suction, rupture_at_volume
+from .guess import guess_at, rupture_guess
 from .locate import ARRIVED, FOLD, LOST, PITCHFORK
 from .morph import Task, held_of
 from .newton import held_target, newton_to
@@ -44,11 +44,6 @@ def walk_from_anchor(task: Task, going: float, target: float, stops_at: int, nod
     if abs(stance.separation - target) < _THERE * math.exp(stance.z.log_length):
         return Walk(ARRIVED, stance, curve, 0, going), True
     return follow(stance, curve, target, stops_at, nodes[:0]), True
-
-
-@kernel
-def _rupture_guess(held: Held) -> float:
-    return rupture_at_suction(held) if held.control == SUCTION else rupture_at_volume(held)
 
 
 class Glance(NamedTuple):
@@ -146,7 +141,7 @@ def _leap_to(event: int, start: Stance, curve: Curve) -> tuple[Stance, bool]:
 def quick_end(task: Task, stops_at: int) -> tuple[Walk, bool]:
     """Rupture by leaps from a stable bridge next to it, and whether that went well."""
     held, symmetric = held_of(task), is_symmetric(task)
-    separation, is_met = _NEXT_TO_RUPTURE * _rupture_guess(held), False
+    separation, is_met = _NEXT_TO_RUPTURE * rupture_guess(held), False
     start, curve = Stance(_NOWHERE, _NOWHERE, 0.0, 0.0, 0, 0.0, 0.0), Curve(held, symmetric, 1.0)
     for _ in range(_MOST_STARTS):
         z, is_met = newton_to(guess_at(held, separation), separation, held, _MOST_STEPS)

@@ -70,6 +70,12 @@ def system_at(z: Four, held: Held, fine: bool, with_volume: bool) -> System:
     """All equations at a meridian; without the volume its row holds nothing."""
     length, liquid = measure_arc(z, fine, with_volume)
     first, second = ends_of(z)
+    return system_of(length, liquid, first, second, held, with_volume)
+
+
+@kernel
+def system_of(length: Row, liquid: Row, first: End, second: End, held: Held, with_volume: bool) -> System:
+    """All equations at an arc with its length, its volume of revolution and its ends, in any four numbers."""
     contact1 = contact_with(held.first, first.radius, first.cos_slope, first.sin_slope)
     contact2 = contact_with(held.second, second.radius, second.cos_slope, second.sin_slope)
     first_gap = _less_height(length, contact1, first)
@@ -124,6 +130,12 @@ def held_row(z: Four, system: System, held: Held) -> Row:
         length = math.exp(z.log_length)
         target = held.value * length
         return Row(z.turn - target, Four(0.0, 0.0, -target, 1.0))
+    return volume_row(system, held)
+
+
+@kernel
+def volume_row(system: System, held: Held) -> Row:
+    """Relative miss of a volume that is held, and its rates."""
     rates = system.volume.rates
     unit = 1.0 / held.value
     return Row(

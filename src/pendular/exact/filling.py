@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..ground.compile import kernel
 from .algebra import Four, dot, largest, moved, solve4, unit_vector
-from .answers import FAILED, FOUND, LARGEST_MISS, NO_BRIDGE, STABLE, UNSTABLE_DIRECTIONS, store
+from .answers import FAILED, FOUND, LARGEST_MISS, NO_BRIDGE, STABLE, store
 from .curve import Curve, Stance, corrected, set_out, stance_at
 from .equations import VOLUME, Held, System, first_row, held_row, system_at
 from .follow import BRANCH_ENDS, FOLDS, Nodes, Walk, beyond, follow, just_after, recorded
@@ -22,7 +22,7 @@ from .meridian import Row
 from .morph import Task, held_of
 from .search import anchor, is_symmetric
 from .solids import half_filling_angle
-from .state import describe
+from .state import UNSTABLE_DIRECTIONS, describe
 
 Rows = NDArray[np.float64]
 

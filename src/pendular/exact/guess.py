@@ -79,46 +79,67 @@ def circle_between(held: Held, separation: float, radius: float, shift: float) -
     )
 
 
+class Start(NamedTuple):
+    """A meridian to start from."""
+
+    middle: float  # radius in its middle
+    cos_tilt: float  # of the slope there
+    tan_tilt: float
+    half_length: float
+    turn: float  # ω
+
+
+@kernel
+def _half_turn(circle: Circle) -> float:
+    """Half the turn of the slope, to three digits where it is no more than a quarter of a circle."""
+    if circle.cos_turn < 0.0:
+        return math.atan2(circle.sin_turn, circle.cos_turn)
+    t = circle.sin_turn / (1.0 + circle.cos_turn)  # of a quarter of the turn
+    square = t * t
+    return t * (1.99957 + square * (-0.65147 + square * (0.31077 + square * -0.0884)))
+
+
 @kernel
 def _arc_of(circle: Circle, half_turn: float) -> float:
     """Half length of a circular arc over its half chord: x/sin x."""
-    return circle.half_chord * (half_turn / circle.sin_turn if abs(half_turn) > 1e-6 else 1.0)
+    return circle.half_chord * (half_turn / circle.sin_turn if abs(half_turn) > 1e-3 else 1.0)
 
 
 @kernel
 def _bend_of(circle: Circle) -> float:
     """(x/sin x + cos x)/2 of the half turn x: the sine of the slope over the half length, averaged."""
-    x = math.atan2(circle.sin_turn, circle.cos_turn)
+    x = _half_turn(circle)
     return 0.5 * (x / circle.sin_turn + circle.cos_turn) if abs(x) > 1e-3 else 1.0
 
 
 @kernel
-def guess_at_volume(held: Held, separation: float, corrected: bool) -> Four:
+def _grown(exponent: float, most: float) -> float:
+    """About the exponential of a number, which is kept between -most and most."""
+    half = 0.5 * max(-most, min(most, exponent))
+    return (1.0 + half) / (1.0 - half)
+
+
+@kernel
+def start_at_volume(held: Held, separation: float) -> Start:
     """Meridian of a bridge that holds about the volume at a separation."""
     volume = held.value
     mean = 0.5 * (held.first.curvature + held.second.curvature)
     radius = math.sqrt(2.0 * volume / (separation + math.sqrt(separation * separation + 2.0 * mean * volume)))
     circle = circle_between(held, separation, radius, 0.0)
-    if corrected:
-        shift, middle, gap = circle.shift, circle.middle, circle.gap
-        h1, h2 = circle.height1, circle.height2
-        caps = h1 * (3.0 * radius * radius + h1 * h1) + h2 * (3.0 * radius * radius + h2 * h2)
-        inside = (gap * (2.0 * (radius * radius + shift * shift) + 4.0 * middle * middle) - caps) / 6.0
-        if inside > 0.05 * volume:
-            exponent = math.log(volume / inside) / (2.0 + 2.0 * (h1 + h2) / gap)
-            radius *= math.exp(max(-0.5, min(0.5, exponent)))
-        else:
-            radius *= 1.3
-        circle = circle_between(held, separation, radius, shift)
-    half_turn = math.atan2(circle.sin_turn, circle.cos_turn)
+    shift, middle, gap = circle.shift, circle.middle, circle.gap
+    h1, h2 = circle.height1, circle.height2
+    caps = h1 * (3.0 * radius * radius + h1 * h1) + h2 * (3.0 * radius * radius + h2 * h2)
+    inside = (gap * (2.0 * (radius * radius + shift * shift) + 4.0 * middle * middle) - caps) / 6.0
+    if inside > 0.05 * volume:
+        logarithm = 2.0 * (volume - inside) / (volume + inside)  # of their ratio, about
+        radius *= _grown(logarithm / (2.0 + 2.0 * (h1 + h2) / gap), 0.5)
+    else:
+        radius *= 1.3
+    circle = circle_between(held, separation, radius, shift)
+    half_turn = _half_turn(circle)
     length = _arc_of(circle, half_turn)
     turn = half_turn - circle.cos_tilt * length / circle.middle
-    return Four(
-        math.log(circle.middle),
-        math.atan(circle.tan_tilt),
-        math.log(length),
-        max(-_MOST_TURN, min(_MOST_TURN, turn)),
-    )
+    return Start(circle.middle, circle.cos_tilt, circle.tan_tilt, length, max(-_MOST_TURN, min(_MOST_TURN, turn)))
 
 
 class Torus(NamedTuple):
@@ -133,9 +154,9 @@ class Torus(NamedTuple):
 @kernel
 def _torus_between(one: Solid, other: Solid) -> Torus:
     cosines, across = one.cos_angle + other.cos_angle, one.sin_angle + other.sin_angle
-    size = math.hypot(across, cosines)
+    size = math.sqrt(across * across + cosines * cosines)
     sine, cosine = cosines / size, across / size
-    half_turn = math.atan2(sine, cosine)
+    half_turn = 0.5 * (math.pi - one.contact_angle - other.contact_angle)
     return Torus(
         0.5 * (one.curvature + other.curvature),
         cosines,
@@ -169,7 +190,7 @@ def _torus_radius(held: Held, separation: float) -> float:
 
 
 @kernel
-def guess_at_suction(held: Held, separation: float, corrected: bool, widened: float) -> Four:
+def start_at_suction(held: Held, separation: float, corrected: bool, widened: float) -> Start:
     """Meridian of a bridge under about the suction at a separation, with its contact circles widened by a factor."""
     suction = held.value
     one, other = held.first, held.second
@@ -186,22 +207,39 @@ def guess_at_suction(held: Held, separation: float, corrected: bool, widened: fl
         slopes = one.curvature * one.sin_angle + other.curvature * other.sin_angle
         rate = 2.0 * heights / radius * (suction * mean + bend) + gap * suction - sines + mean * slopes
         if rate > 0.0:
-            radius *= math.exp(max(-0.4, min(0.4, -excess / rate / radius)))
+            radius *= _grown(-excess / (rate * radius), 0.4)
         circle = circle_between(held, separation, radius, circle.shift)
-    half_turn = math.atan2(circle.sin_turn, circle.cos_turn)
+    half_turn = _half_turn(circle)
     length = _arc_of(circle, half_turn)
     turn = suction * length
     if abs(turn) > _MOST_TURN:
         length, turn = _MOST_TURN / abs(suction), math.copysign(_MOST_TURN, turn)
-    return Four(math.log(circle.middle), math.atan(circle.tan_tilt), math.log(length), turn)
+    return Start(circle.middle, circle.cos_tilt, circle.tan_tilt, length, turn)
+
+
+@kernel
+def start_at(held: Held, separation: float) -> Start:
+    """Meridian of a bridge at a separation that holds about what is held."""
+    if held.control == SUCTION:
+        return start_at_suction(held, separation, True, 1.0)
+    return start_at_volume(held, separation)
+
+
+@kernel
+def _meridian_of(start: Start) -> Four:
+    return Four(math.log(start.middle), math.atan(start.tan_tilt), math.log(start.half_length), start.turn)
+
+
+@kernel
+def guess_at_suction(held: Held, separation: float, widened: float) -> Four:
+    """Meridian of a bridge under about the suction at a separation, with its contact circles widened by a factor."""
+    return _meridian_of(start_at_suction(held, separation, True, widened))
 
 
 @kernel
 def guess_at(held: Held, separation: float) -> Four:
     """Meridian of a bridge at a separation that holds about what is held."""
-    if held.control == SUCTION:
-        return guess_at_suction(held, separation, True, 1.0)
-    return guess_at_volume(held, separation, True)
+    return _meridian_of(start_at(held, separation))
 
 
 # ln(D_c/V^(1/3)) at a volume, fitted to 20000 exact ruptures: products of two of
@@ -255,3 +293,9 @@ def rupture_at_suction(held: Held) -> float:
         rate = -2.0 * sines * u - 2.0 * mean * u * u - 4.0 * mean * radius * u * suction
         radius = max(radius - value / rate, 0.2 * radius)
     return (cosines - sines * radius) * radius / (suction * radius + bend) - mean * radius * radius
+
+
+@kernel
+def rupture_guess(held: Held) -> float:
+    """Rupture distance, about."""
+    return rupture_at_suction(held) if held.control == SUCTION else rupture_at_volume(held)

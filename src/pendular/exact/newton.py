@@ -7,7 +7,7 @@ from .algebra import Four, largest, moved, solve4
 from .equations import VOLUME, Held, held_row, system_at
 from .meridian import Row
 
-_LONGEST_STEP = 1.0
+LONGEST_STEP = 1.0
 _MOST_TURN = 9.0  # |ω| beyond which an arc winds about itself
 _COARSE_STEP = 1e-4  # from which on the finer nodes are used
 _NO_STEP = 1e-20  # a guess may be the bridge itself
@@ -43,7 +43,7 @@ def newton_to(z: Four, separation: float, held: Held, most: int) -> tuple[Four, 
         size = largest(change)
         if not size < 1e6:
             break
-        z = moved(z, _LONGEST_STEP / max(size, _LONGEST_STEP), change)
+        z = moved(z, LONGEST_STEP / max(size, LONGEST_STEP), change)
         if not abs(z.turn) < _MOST_TURN:
             break
         # what is left after a step is its square, by the factor that made it the square of the one before

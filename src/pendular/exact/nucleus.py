@@ -68,7 +68,7 @@ def nucleus_stored(task: Task, nodes: Nodes, row: Rows) -> int:
     """Store the bridge of two planes at a separation and a suction."""
     held = held_of(task)
     for widened in _WIDENED:
-        if _stored_from(guess_at_suction(held, task.separation, True, widened), task, row):
+        if _stored_from(guess_at_suction(held, task.separation, widened), task, row):
             return FOUND
     # through all shapes, at one volume, from a wide bridge in a narrow gap to those beyond rupture
     shape = Task(0.3, 1.0 / math.pi, 0.0, task.angle1, 0.0, task.angle2, VOLUME)

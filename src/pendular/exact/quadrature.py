@@ -57,6 +57,15 @@ class Sums(NamedTuple):
     volume_by_eta: float
 
 
+@summing_kernel
+def point_at(real: float, imag: float, h: float, v: float, dv: float) -> Node:
+    """The point at v with its share dv of the parameter, h = η/2."""
+    w = h * v
+    p = 1.0 / (1.0 + w * w)
+    nr, ni = real - v * h * imag, imag + v * (1.0 + h * real)
+    return Node((nr - ni * w) * p, (ni + nr * w) * p, dv * p, v, w, p)
+
+
 @kernel
 def node_at(real: float, imag: float, h: float, cut: Cut, x: float, weight: float) -> Node:
     """The point at a node x in [-1, 1] of a cut, h = η/2."""
@@ -75,10 +84,7 @@ def node_at(real: float, imag: float, h: float, cut: Cut, x: float, weight: floa
     e = e * e * cut.middle
     inverse = 1.0 / e
     v = cut.pole + 0.5 * cut.spread * (e - inverse)
-    w = h * v
-    p = 1.0 / (1.0 + w * w)
-    nr, ni = real - v * h * imag, imag + v * (1.0 + h * real)
-    return Node((nr - ni * w) * p, (ni + nr * w) * p, 0.5 * cut.spread * cut.half * (e + inverse) * weight * p, v, w, p)
+    return point_at(real, imag, h, v, 0.5 * cut.spread * cut.half * (e + inverse) * weight)
 
 
 @summing_kernel

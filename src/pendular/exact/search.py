@@ -17,6 +17,7 @@ from .guess import guess_at
 from .locate import ENDED, LOST
 from .morph import Task, held_of, morph
 from .newton import newton_to
+from .solids import Solid
 
 _LAST_DIGITS = 2e-12
 _EASY_ANGLE = 0.5
@@ -37,13 +38,19 @@ def at_separation(task: Task, separation: float) -> Task:
 
 
 @kernel
-def is_symmetric(task: Task) -> bool:
-    """Whether the two solids are mirror images, but for the last digits of a radius or an angle."""
-    larger = max(task.curvature1, task.curvature2)
+def are_alike(first: Solid, second: Solid) -> bool:
+    """Whether two solids are mirror images, but for the last digits of a radius or an angle."""
     return (
-        abs(task.curvature1 - task.curvature2) <= _LAST_DIGITS * larger
-        and abs(task.angle1 - task.angle2) <= _LAST_DIGITS
+        abs(first.curvature - second.curvature) <= _LAST_DIGITS * max(first.curvature, second.curvature)
+        and abs(first.contact_angle - second.contact_angle) <= _LAST_DIGITS
     )
+
+
+@kernel
+def is_symmetric(task: Task) -> bool:
+    """Whether the two solids are mirror images."""
+    held = held_of(task)
+    return are_alike(held.first, held.second)
 
 
 @kernel

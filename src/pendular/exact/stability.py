@@ -19,8 +19,8 @@ bridge is unstable exactly where it pushes the solids apart.
 from typing import NamedTuple
 
 from ..ground.compile import kernel
-from .algebra import Four, joined, minors
-from .equations import System, curvature_rates
+from .algebra import Four, determinant
+from .equations import System
 from .meridian import extreme_phases
 
 
@@ -31,22 +31,51 @@ class Ladder(NamedTuple):
     at_volume: int
 
 
+class _Three(NamedTuple):
+    """Rates at a suction that is held: of the length at a turn that grows with it."""
+
+    by_radius: float
+    by_slope: float
+    by_length: float
+
+
 @kernel
-def ladder_at(z: Four, system: System) -> Ladder:
-    """Unstable directions of a bridge; without the volume in its system, ``at_volume`` means nothing."""
-    curvature = curvature_rates(z)
-    c1, c2, ring2 = system.contact1.rates, system.contact2.rates, system.second.growth
-    both = minors(c1, c2)
-    held_rings = joined(minors(system.first.growth, ring2), minors(system.length.rates, curvature))
-    one_free = joined(minors(c1, ring2), minors(system.first_gap.rates, curvature))
-    both_free = joined(both, minors(system.separation.rates, curvature))
-    volume_held = joined(both, minors(system.separation.rates, system.volume.rates))
-    necks, bulges = extreme_phases(z)
-    extrema = necks + bulges
+def _at_suction(rates: Four, turn: float) -> _Three:
+    return _Three(rates[0], rates[1], rates[2] + turn * rates[3])
+
+
+@kernel
+def _determinant(a: _Three, b: _Three, c: _Three) -> float:
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])
+
+
+@kernel
+def ladder_of(system: System, turn: float, extrema: int, with_volume: bool) -> Ladder:
+    """Unstable directions of a bridge whose meridian has so many extrema of its radius; ``turn`` is the fourth number.
+
+    Without the volume in its system, ``at_volume`` means nothing.
+    """
+    c1, c2 = _at_suction(system.contact1.rates, turn), _at_suction(system.contact2.rates, turn)
+    ring1, ring2 = _at_suction(system.first.growth, turn), _at_suction(system.second.growth, turn)
+    held_rings = _determinant(ring1, ring2, _at_suction(system.length.rates, turn))
+    one_free = _determinant(c1, ring2, _at_suction(system.first_gap.rates, turn))
+    both_free = _determinant(c1, c2, _at_suction(system.separation.rates, turn))
     parity = 1.0 if extrema % 2 == 0 else -1.0
     count = extrema if held_rings * parity > 0.0 else extrema - 1
     if (held_rings > 0.0) != (one_free > 0.0):
         count += 1
     if (one_free > 0.0) != (both_free > 0.0):
         count += 1
+    if not with_volume:
+        return Ladder(count, count)
+    volume_held = determinant(
+        system.contact1.rates, system.contact2.rates, system.separation.rates, system.volume.rates
+    )
     return Ladder(count, count - 1 if (both_free > 0.0) == (volume_held > 0.0) else count)
+
+
+@kernel
+def ladder_at(z: Four, system: System) -> Ladder:
+    """Unstable directions of a bridge; without the volume in its system, ``at_volume`` means nothing."""
+    necks, bulges = extreme_phases(z)
+    return ladder_of(system, z.turn, necks + bulges, True)

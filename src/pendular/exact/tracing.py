@@ -12,8 +12,6 @@ from .answers import (
     FOUND,
     LARGEST_MISS,
     NO_BRIDGE,
-    STIFFNESS,
-    UNSTABLE_DIRECTIONS,
     Answer,
     bridge_of,
     end_of,
@@ -28,7 +26,7 @@ from .follow import NOTHING, Nodes, back_from, beyond, follow, recorded
 from .locate import ARRIVED, FOLD, LOST, PITCHFORK
 from .morph import Task, held_of
 from .search import are_planes, at_separation, is_symmetric
-from .state import describe
+from .state import STIFFNESS, UNSTABLE_DIRECTIONS, describe
 
 Rows = NDArray[np.float64]
 

@@ -5,11 +5,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from ...ask.problem import DEEPEST_OVERLAP, LIKELY_BETWEEN_PLANES, MOST_SUCTION, NARROWEST, VOLUMES
+from ...ask.domain import is_in_domain
+from ...ask.problem import LIKELY_BETWEEN_PLANES
 from ...exact.algebra import Four
 from ...exact.answers import stored_from
 from ...exact.batch import FAILED, FOUND, NO_BRIDGE, RUPTURE, STABLE, answer_one
-from ...exact.equations import SUCTION, VOLUME
+from ...exact.equations import VOLUME
 from ...exact.follow import BRANCH_ENDS
 from ...exact.morph import Task
 from ...exact.state import State
@@ -31,25 +32,15 @@ _CURVATURE, _FORCE, _VOLUME, _STIFFNESS, _MIDDLE, _SLOPE, _LENGTH = (
     State._fields.index(name)
     for name in ("curvature", "force", "volume", "stiffness", "middle_radius", "middle_slope", "half_length")
 )
-_LEAST_VOLUME, _MOST_VOLUME = VOLUMES
 
 
 @kernel
 def _is_fit(control: int, separation: float, held: float, pair: Floats) -> bool:
     """Whether a question is one: what `ask.problem` refuses is none, nor is what is not a number."""
     radius1, radius2, tension = pair[0], pair[1], pair[4]
-    small = min(radius1, radius2)
     is_pair = radius1 > 0.0 and radius2 > 0.0 and 0.0 < tension < math.inf
     is_pair = is_pair and 0.0 <= pair[2] < math.pi and 0.0 <= pair[3] < math.pi
-    if not is_pair or not abs(separation) < math.inf or not abs(held) < math.inf:
-        return False
-    if small == math.inf:
-        return control == VOLUME and held > 0.0 and separation >= NARROWEST * held ** (1.0 / 3.0)
-    mean = 2.0 / (1.0 / radius1 + 1.0 / radius2)
-    is_near = separation > -DEEPEST_OVERLAP * small
-    if control == VOLUME:
-        return is_near and _LEAST_VOLUME * mean**3 <= held <= _MOST_VOLUME * mean**3
-    return is_near and control == SUCTION and abs(held) <= MOST_SUCTION * tension / mean
+    return is_pair and is_in_domain(control, separation, held, radius1, radius2, tension)
 
 
 @kernel

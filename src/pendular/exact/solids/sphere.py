@@ -50,16 +50,17 @@ def solid_of(curvature: float, contact_angle: float) -> Solid:
 def contact_with(solid: Solid, radius: float, cos_slope: float, sin_slope: float) -> Contact:
     """What a contact circle of radius Y, with the outward slope ψ, amounts to."""
     k = solid.curvature
-    sine = solid.cos_angle * cos_slope - solid.sin_angle * sin_slope  # of δ
-    cosine = solid.sin_angle * cos_slope + solid.cos_angle * sin_slope
+    sine = half_filling_sine(solid, cos_slope, sin_slope)
+    cosine = half_filling_cosine(solid, cos_slope, sin_slope)
     turned = k * radius
     if k == 0.0:
         height, by_radius, by_slope = 0.0, 0.0, 0.0
     elif cosine < _PAST_EQUATOR:
         height, by_radius, by_slope = (1.0 - cosine) / k, 0.0, -sine / k
     else:
-        height = turned * radius / (1.0 + cosine)
-        by_radius, by_slope = 2.0 * height, -height * sine / (1.0 + cosine)
+        inverse = 1.0 / (1.0 + cosine)
+        height = turned * radius * inverse
+        by_radius, by_slope = 2.0 * height, -height * sine * inverse
     square = radius * radius
     lifted = 0.5 * (square + height * height)
     return Contact(
@@ -76,10 +77,22 @@ def contact_with(solid: Solid, radius: float, cos_slope: float, sin_slope: float
 
 
 @kernel
+def half_filling_sine(solid: Solid, cos_slope: float, sin_slope: float) -> float:
+    """Sine of δ, from the slope alone."""
+    return solid.cos_angle * cos_slope - solid.sin_angle * sin_slope
+
+
+@kernel
+def half_filling_cosine(solid: Solid, cos_slope: float, sin_slope: float) -> float:
+    """Cosine of δ."""
+    return solid.sin_angle * cos_slope + solid.cos_angle * sin_slope
+
+
+@kernel
 def half_filling_angle(solid: Solid, radius: float, cos_slope: float, sin_slope: float) -> float:
     """δ in (-π, π]; 0 on a plane, π on its wrong side."""
-    sine = solid.cos_angle * cos_slope - solid.sin_angle * sin_slope
-    cosine = solid.sin_angle * cos_slope + solid.cos_angle * sin_slope
+    sine = half_filling_sine(solid, cos_slope, sin_slope)
+    cosine = half_filling_cosine(solid, cos_slope, sin_slope)
     if solid.curvature == 0.0:
         return 0.0 if cosine > 0.0 else math.pi
     # at the contact sin δ is kY, which has all digits where δ is small

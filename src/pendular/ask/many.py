@@ -1,0 +1,214 @@
+"""Many stable bridges at once, from SI numbers to SI fields in one pass over the rows.
+
+What the straight way of the solver does not answer is asked of the rest of it, in rows of their own.
+"""
+
+import math
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..exact import batch
+from ..exact.batch import FOUND, OPEN
+from ..exact.equations import SUCTION, VOLUME
+from ..exact.state import State, state_in
+from ..ground.compile import kernel
+from ..ground.rows import Own, element, entry, over_rows
+from .domain import is_in_domain
+from .fields import TO_GO_ON, Room, asks_for_force_alone, bridge_of, fill, leave_empty, room_for
+from .liquid import Liquid
+from .pair import Pair
+from .problem import LIMITS, Control, Limit, reduce, warn_of_failures
+from .result import Bridge
+
+Floats = NDArray[np.float64]
+Statuses = NDArray[np.int8]
+
+_CHUNK = 4096  # bridges that one thread takes at a time: some milliseconds
+_BAD = 3  # status of a row that is no question
+
+
+@kernel
+def _length_unit(control: int, held: float, radius1: float, radius2: float) -> float:
+    """Unit of length of a question: the smaller radius; between two planes the cube root of the volume."""
+    small = min(radius1, radius2)
+    return small if small < math.inf or control == SUCTION else held ** (1.0 / 3.0)
+
+
+@entry(plain_cost=5e-4, patience=4.0)
+def fields_range(
+    wanted: int,
+    control: int,
+    separation: Floats,
+    values: Floats,
+    radius1: Floats,
+    radius2: Floats,
+    angle1: Floats,
+    angle2: Floats,
+    tension: float,
+    near: Floats,
+    room: Room,
+    statuses: Statuses,
+    row: Floats,
+    start: int,
+    stop: int,
+) -> None:
+    """Fields of the stable bridges to which the straight way leads; others stay OPEN.
+
+    Columns of ``near``, if it has any, are bridges to start from: radius and slope in the middle, half a length,
+    suction.
+    """
+    known1 = known2 = math.nan
+    cosine1 = sine1 = cosine2 = sine2 = math.nan
+    for i in range(start, stop):
+        gap, held = element(separation, i), element(values, i)
+        first, second = element(radius1, i), element(radius2, i)
+        one, other = element(angle1, i), element(angle2, i)
+        if one != known1:
+            known1, cosine1, sine1 = one, math.cos(one), math.sin(one)
+        if other != known2:
+            known2, cosine2, sine2 = other, math.cos(other), math.sin(other)
+        if not is_in_domain(control, gap, held, first, second, tension):
+            statuses[i] = _BAD
+            continue
+        unit = _length_unit(control, held, first, second)
+        reduced = held / (unit * unit * unit) / math.pi if control == VOLUME else held * unit / tension
+        solids = batch.Solid(unit / first, one, cosine1, sine1), batch.Solid(unit / second, other, cosine2, sine2)
+        begin = batch.NOWHERE
+        if near.shape[1] > 0 and near[0, i] > 0.0:
+            begin = batch.arc_through(near[0, i] / unit, near[1, i], near[2, i] / unit, near[3, i] * unit / tension)
+        status = batch.straight_status(
+            wanted, begin, gap / unit, batch.Held(solids[0], solids[1], control, reduced), row
+        )
+        statuses[i] = status
+        if status == FOUND:
+            fill(room, i, state_in(row), control, gap, held, unit, tension, cosine1, cosine2)
+        else:
+            leave_empty(room, i, status)
+
+
+@entry(plain_cost=3e-5)
+def restored_range(
+    control: int,
+    places: NDArray[np.int64],
+    separation: Floats,
+    values: Floats,
+    units: Floats,
+    angle1: Floats,
+    angle2: Floats,
+    tension: float,
+    states: Floats,
+    statuses: Statuses,
+    room: Room,
+    start: int,
+    stop: int,
+) -> None:
+    """Fields of rows of states, each at its place in the room."""
+    for k in range(start, stop):
+        i = places[k]
+        if statuses[k] != FOUND:
+            leave_empty(room, i, statuses[k])
+            continue
+        cosine1, cosine2 = math.cos(angle1[k]), math.cos(angle2[k])
+        asked = (float(separation[k]), float(values[k]), float(units[k]), tension, cosine1, cosine2)
+        fill(room, i, state_in(states[k]), control, asked[0], asked[1], asked[2], asked[3], asked[4], asked[5])
+
+
+def _plainly(room: Room, statuses: Statuses, *asking: Any) -> None:
+    """Answer rows one by one in plain Python; where its arithmetic has no answer, as 1/0, a row stays OPEN."""
+    given: tuple[Any, ...] = asking[:-2]
+    for i in range(len(statuses)):
+        try:
+            fields_range(*(*given, i, i + 1))
+        except (ArithmeticError, ValueError):
+            statuses[i] = OPEN
+            leave_empty(room, i, OPEN)
+
+
+def _operand(array: Any, shape: tuple[int, ...]) -> Floats:
+    """An argument as rows: one for all, or one each."""
+    if array.size == 1:
+        return np.reshape(array, 1)
+    if array.shape == shape:
+        return np.ascontiguousarray(array).reshape(-1)
+    return np.ascontiguousarray(np.broadcast_to(array, shape)).reshape(-1)
+
+
+def many_bridges(
+    pair: Pair,
+    control: Control,
+    liquid: Liquid,
+    separation: Floats,
+    limit: Limit,
+    fields: tuple[str, ...] | None,
+    near: Bridge | None,
+) -> Bridge | None:
+    """Stable bridges of an array of questions; None if there is but one question."""
+    radii, angles = pair.radii, pair.contact_angles
+    given = [np.asarray(each) for each in (separation, control.value, *radii, *angles)]
+    try:
+        shape = np.broadcast_shapes(*(each.shape for each in given))
+    except ValueError:
+        shape = reduce(pair, control, liquid, separation).shape  # which names them
+    if not shape:
+        return None
+    rows = math.prod(shape)
+    held = VOLUME if control.name == "volume" else SUCTION
+    wanted = batch.ALL
+    if asks_for_force_alone(fields, control.name):
+        wanted = batch.FORCE_ALONE if near is None else batch.FORCE_TO_GO_ON
+    operands = [_operand(each, shape) for each in given]
+    start = _columns_of(near, shape)
+    if near is not None and fields is not None:
+        fields = (*fields, *TO_GO_ON)
+    room, statuses = room_for(rows, fields), np.empty(rows, np.int8)
+    tension = float(liquid.surface_tension)
+    asking = (wanted, held, *operands, tension, start, room, statuses, Own(partial(np.empty, len(State._fields))))
+    over_rows(fields_range, rows, _CHUNK, *asking, plainly=partial(_plainly, room, statuses))
+    if rows and statuses.max() == _BAD:
+        reduce(pair, control, liquid, separation)  # which says what is wrong
+    left = np.flatnonzero((statuses == OPEN) | (statuses == _BAD))
+    if left.size:
+        _fill_rest(operands, control, liquid, held, limit, left, room, statuses)
+    warn_of_failures(statuses)
+    return bridge_of(room, shape, radii, tension, fields)
+
+
+def _columns_of(near: Bridge | None, shape: tuple[int, ...]) -> Floats:
+    """Where to start from, a column for each row; none without bridges near by."""
+    if near is None:
+        return np.empty((4, 0))
+    if np.shape(near.force) != shape:
+        raise ValueError(f"near: bridges of shape {np.shape(near.force)} are not of that of the question, {shape}")
+    if np.any(near.exists) and not np.any(near._meridian[..., 0] > 0.0):
+        raise ValueError(
+            "near: these bridges do not know their meridians; ask for all fields, or give near to them too"
+        )
+    columns = np.empty((4, math.prod(shape)))
+    columns[:3] = np.moveaxis(near._meridian, -1, 0).reshape(3, -1)
+    columns[3] = np.ravel(near.suction)
+    return columns
+
+
+def _fill_rest(
+    operands: list[Floats],
+    control: Control,
+    liquid: Liquid,
+    held: int,
+    limit: Limit,
+    left: NDArray[np.intp],
+    room: Room,
+    statuses: Statuses,
+) -> None:
+    """Ask the rest of the solver, and fill the rows that it answers."""
+    gap, value, radius1, radius2, angle1, angle2 = (
+        np.full(left.size, operand[0]) if operand.size == 1 else operand[left] for operand in operands
+    )
+    pair = Pair((radius1, radius2), (angle1, angle2))
+    problem = reduce(pair, control._replace(value=value), liquid, gap)
+    states, found = batch.answer_rest(batch.STABLE, held, problem.rows, LIMITS[limit])
+    statuses[left] = found
+    restoring = (held, left, gap, value, problem.length, angle1, angle2, float(liquid.surface_tension), states, found)
+    over_rows(restored_range, left.size, _CHUNK, *restoring, room)

@@ -1,0 +1,259 @@
+r"""The meridian of a bridge in its algebraic numbers, without a sine: what is asked most is answered in them.
+
+With :math:`v = (2/H)\tan(Hs/2)` in the place of the arc length, over its half width τ, the arc of
+:mod:`~pendular.exact.meridian` is one panel, and its four numbers are :math:`(\ln a, m, \ln\tau, \eta)`: radius times
+cosine and tangent of the slope in the middle, :math:`\zeta_m = a(1 + im)`, and η = Hτ. Rates of quantities are rates in
+these four. Sums over the panel are Gauss's, with as many nodes as the nearest of their singular points asks for: the
+branch points of Y, where a neck is thin, and the ends of a circle, v = ±2i/η.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..ground.compile import constants, kernel, summing_kernel
+from .algebra import Four
+from .equations import Held, System, system_of
+from .meridian import End, Row
+from .quadrature import point_at
+
+Nodes = NDArray[np.float64]
+
+_X8, _W8 = map(constants, np.polynomial.legendre.leggauss(8))
+_X16, _W16 = map(constants, np.polynomial.legendre.leggauss(16))
+_X24, _W24 = map(constants, np.polynomial.legendre.leggauss(24))
+_X32, _W32 = map(constants, np.polynomial.legendre.leggauss(32))
+_X48, _W48 = map(constants, np.polynomial.legendre.leggauss(48))
+_X64, _W64 = map(constants, np.polynomial.legendre.leggauss(64))
+_X96, _W96 = map(constants, np.polynomial.legendre.leggauss(96))
+# Distance of the nearest singular point from the panel, over its half width, from which on so many nodes leave an
+# error of rounding, e = ρ^-2n with ρ = t + √(1 + t²); or one that a Newton step far from its end does not see.
+_FINE_8, _FINE_16, _FINE_24, _FINE_32, _FINE_48, _FINE_64, LEAST_ROOM = 4.95, 1.42, 0.85, 0.61, 0.395, 0.295, 0.195
+_COARSE_8, _COARSE_16, _COARSE_24 = 0.85, 0.42, 0.26
+_SMALL = 1e-4  # ω below which tan(ω/2)/(ω/2) is a series
+
+
+class Arc(NamedTuple):
+    """A meridian."""
+
+    radius: float  # a, cos φ times the radius in the middle
+    slope: float  # m, tan φ there
+    half_width: float  # τ
+    eta: float  # Hτ
+
+
+NOWHERE = Arc(0.0, 0.0, 0.0, 0.0)
+
+
+class Sums(NamedTuple):
+    """Length X, volume V/π and orientation of an arc in units of τ, with rates in Re ζm, Im ζm and η."""
+
+    length: float
+    length_by_real: float
+    length_by_imag: float
+    length_by_eta: float
+    volume: float
+    volume_by_real: float
+    volume_by_imag: float
+    volume_by_eta: float
+    across: float  # ∫Y cos²φ ds
+    axial: float  # ∫Y sin²φ ds
+
+
+@kernel
+def room_of(arc: Arc) -> float:
+    """Distance of the singular points from the panel, over its half width, or less."""
+    real, h = arc.radius / arc.half_width, 0.5 * arc.eta
+    imag = real * arc.slope
+    c_real, c_imag = 1.0 + h * real, h * imag
+    branch = abs(real * c_real + imag * c_imag) / (c_real * c_real + c_imag * c_imag)
+    return min(branch, 1.0 / abs(h)) if h != 0.0 else branch
+
+
+@kernel
+def _nodes_for(room: float, fine: bool) -> tuple[Nodes, Nodes]:
+    if room > (_FINE_8 if fine else _COARSE_8):
+        return _X8, _W8
+    if room > (_FINE_16 if fine else _COARSE_16):
+        return _X16, _W16
+    if room > (_FINE_24 if fine else _COARSE_24):
+        return _X24, _W24
+    if room > _FINE_32 or not fine:
+        return _X32, _W32
+    if room > _FINE_48:
+        return _X48, _W48
+    if room > _FINE_64:
+        return _X64, _W64
+    return _X96, _W96
+
+
+@summing_kernel
+def _sum_length(real: float, imag: float, h: float, x: Nodes, weight: Nodes) -> Sums:
+    """Length and its rates."""
+    length = by_real = by_imag = by_eta = 0.0
+    for j in range(len(x)):
+        zr, zi, ds, v, w, p = point_at(real, imag, h, x[j], weight[j])
+        square = 1.0 / (zr * zr + zi * zi)
+        share = ds * math.sqrt(square)
+        cosine, sine = share * zr, share * zi * square
+        er, ei = (1.0 - w * w) * p, 2.0 * w * p
+        fr, fi = er * zr + ei * zi, ei * zr - er * zi
+        length += cosine
+        by_real -= sine * fi
+        by_imag -= sine * fr
+        by_eta -= v * p * (cosine * w + 0.5 * sine * (2.0 * real * fr - (2.0 * imag + v) * fi))
+    return Sums(length, by_real, by_imag, by_eta, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+@summing_kernel
+def _sum_all(real: float, imag: float, h: float, x: Nodes, weight: Nodes) -> Sums:
+    """All of them."""
+    length = by_real = by_imag = by_eta = 0.0
+    volume = v_real = v_imag = v_eta = 0.0
+    across = axial = 0.0
+    for j in range(len(x)):
+        zr, zi, ds, v, w, p = point_at(real, imag, h, x[j], weight[j])
+        square = zr * zr + zi * zi
+        inverse = 1.0 / square
+        share = ds * math.sqrt(inverse)
+        cosine, sine = share * zr, share * zi
+        er, ei = (1.0 - w * w) * p, 2.0 * w * p
+        fr, fi = (er * zr + ei * zi) * inverse, (ei * zr - er * zi) * inverse
+        grown = -0.5 * v * p * ((2.0 * imag + v) * fr + 2.0 * real * fi)
+        turned = 0.5 * v * p * (2.0 * real * fr - (2.0 * imag + v) * fi)
+        lag = w * v * p
+        disc, tilt = cosine * square, sine * square
+        length += cosine
+        by_real -= sine * fi
+        by_imag -= sine * fr
+        by_eta -= cosine * lag + sine * turned
+        volume += disc
+        v_real += 2.0 * disc * fr - tilt * fi
+        v_imag -= 2.0 * disc * fi + tilt * fr
+        v_eta += disc * (2.0 * grown - lag) - tilt * turned
+        across += cosine * zr
+        axial += sine * zi
+    return Sums(length, by_real, by_imag, by_eta, volume, v_real, v_imag, v_eta, across, axial)
+
+
+@kernel
+def sums_of(arc: Arc, room: float, fine: bool, with_all: bool) -> Sums:
+    """Sums over the panel, whose singular points are as far away as `room_of` tells."""
+    real, h = arc.radius / arc.half_width, 0.5 * arc.eta
+    x, weight = _nodes_for(room, fine)
+    if with_all:
+        return _sum_all(real, real * arc.slope, h, x, weight)
+    return _sum_length(real, real * arc.slope, h, x, weight)
+
+
+@kernel
+def _end_of(arc: Arc, side: float) -> End:
+    """End of the arc on the first (side -1) or the second solid (+1)."""
+    real, h = arc.radius / arc.half_width, 0.5 * arc.eta
+    imag = real * arc.slope
+    zr, zi, p, _v, w, _p = point_at(real, imag, h, side, 1.0)
+    square = zr * zr + zi * zi
+    inverse = 1.0 / square
+    radius = math.sqrt(square)
+    cosine = radius * inverse
+    er, ei = (1.0 - w * w) * p, 2.0 * w * p
+    fr, fi = (er * zr + ei * zi) * inverse, (ei * zr - er * zi) * inverse
+    half, across = 0.5 * side * p, 2.0 * imag + side
+    grown, turned = real * fr - imag * fi, real * fi + imag * fr
+    return End(
+        arc.half_width * radius,
+        zr * cosine,
+        side * zi * cosine,
+        Four(grown, -real * fi, 1.0 - grown, -half * (across * fr + 2.0 * real * fi)),
+        Four(side * turned, side * real * fr, -side * turned, side * half * (2.0 * real * fr - across * fi)),
+    )
+
+
+@kernel
+def system_on(arc: Arc, held: Held, sums: Sums, with_volume: bool) -> System:
+    """All equations at an arc, from its sums; without the volume its row holds nothing."""
+    tau, real = arc.half_width, arc.radius / arc.half_width
+    imag = real * arc.slope
+    by_radius = sums.length_by_real * real + sums.length_by_imag * imag
+    length = Row(
+        tau * sums.length,
+        Four(
+            tau * by_radius,
+            tau * sums.length_by_imag * real,
+            tau * (sums.length - by_radius),
+            tau * sums.length_by_eta,
+        ),
+    )
+    cube = tau * tau * tau
+    by_radius = sums.volume_by_real * real + sums.volume_by_imag * imag
+    liquid = Row(
+        cube * sums.volume,
+        Four(
+            cube * by_radius,
+            cube * sums.volume_by_imag * real,
+            cube * (3.0 * sums.volume - by_radius),
+            cube * sums.volume_by_eta,
+        ),
+    )
+    return system_of(length, liquid, _end_of(arc, -1.0), _end_of(arc, 1.0), held, with_volume)
+
+
+@kernel
+def force_on(arc: Arc) -> float:
+    """λ = a + (H/2) a² (1 + m²), the first integral of the Young-Laplace equation."""
+    half = 0.5 * arc.eta / arc.half_width
+    return arc.radius * (1.0 + half * arc.radius * (1.0 + arc.slope * arc.slope))
+
+
+@kernel
+def force_rates_on(arc: Arc) -> Four:
+    """Rates of λ."""
+    square = arc.radius * arc.radius
+    bent = 0.5 * arc.eta / arc.half_width * square * (1.0 + arc.slope * arc.slope)
+    return Four(
+        arc.radius + 2.0 * bent,
+        arc.eta / arc.half_width * square * arc.slope,
+        -bent,
+        0.5 * square * (1.0 + arc.slope * arc.slope) / arc.half_width,
+    )
+
+
+@kernel
+def arc_after(arc: Arc, change: Four, step: float) -> Arc:
+    """The arc after a share of a change of its four numbers, of 1 or less; logarithms to the second order of it."""
+    by_radius, by_width = 0.5 * step * change.log_radius, 0.5 * step * change.log_length
+    return Arc(
+        arc.radius * ((1.0 + by_radius) / (1.0 - by_radius)),
+        arc.slope + step * change.slope,
+        arc.half_width * ((1.0 + by_width) / (1.0 - by_width)),
+        arc.eta + step * change.turn,
+    )
+
+
+@kernel
+def arc_through(radius: float, slope: float, half_length: float, curvature: float) -> Arc:
+    """The arc with a radius and a slope angle in its middle, half a length, and a curvature H."""
+    half = 0.5 * curvature * half_length
+    tangent = math.tan(half)
+    stretch = tangent / half if abs(half) > _SMALL else 1.0 + half * half / 3.0
+    return Arc(radius * math.cos(slope), math.tan(slope), half_length * stretch, 2.0 * tangent)
+
+
+@kernel
+def half_length_of(arc: Arc) -> float:
+    """ℓ, half the arc length."""
+    h = 0.5 * arc.eta
+    return arc.half_width * (math.atan(h) / h if abs(h) > _SMALL else 1.0 - h * h / 3.0)
+
+
+@kernel
+def meridian_of(arc: Arc) -> Four:
+    """The numbers of `meridian`."""
+    return Four(
+        math.log(arc.radius) + 0.5 * math.log1p(arc.slope * arc.slope),
+        math.atan(arc.slope),
+        math.log(half_length_of(arc)),
+        2.0 * math.atan(0.5 * arc.eta),
+    )
