@@ -6,11 +6,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..exact.batch import FAILED
+from ..exact.batch import FAILED, FOUND
 from ..exact.equations import VOLUME
-from ..exact.state import State
+from ..exact.state import State, state_in
 from ..ground.check import one_of
 from ..ground.compile import kernel
+from ..ground.rows import element, entry, over_rows
 from .result import FIELDS, Bridge
 
 Floats = NDArray[np.float64]
@@ -26,6 +27,7 @@ _LENGTHS = {
 _KINDS = ("exists", "stable", "sideways_stable", "neck_inside")
 _ALWAYS = ("exists", "stable", "unstable_directions", "sideways_stable")
 TO_GO_ON = ("suction", "_meridian")  # what is kept of a bridge, so that others may be looked for near it
+_CHUNK = 16384  # rows that one thread takes at a time
 _NAMES = tuple(name for name, _, _ in FIELDS)
 (
     _SEPARATION, _SUCTION, _VOLUME, _FORCE, _NECK, _AREA, _ENERGY, _POTENTIAL, _STIFFNESS, _RADII, _FILLINGS, _WETTED,
@@ -135,6 +137,55 @@ def fill(
         row = room.places[_MERIDIAN]
         room.numbers[row, i], room.numbers[row + 1, i] = state.middle_radius * unit, state.middle_slope
         room.numbers[row + 2, i] = state.half_length * unit
+
+
+@entry(plain_cost=3e-5)
+def restored_range(
+    control: int,
+    places: NDArray[np.int64],
+    separation: Floats,
+    values: Floats,
+    units: Floats,
+    angle1: Floats,
+    angle2: Floats,
+    tension: float,
+    states: Floats,
+    statuses: NDArray[np.int8],
+    room: Room,
+    start: int,
+    stop: int,
+) -> None:
+    """Fields of rows of states, each at its place in the room, of separations that were asked or are NaN."""
+    for k in range(start, stop):
+        i = places[k]
+        if statuses[k] != FOUND:
+            leave_empty(room, i, statuses[k])
+            continue
+        cosine1, cosine2 = math.cos(angle1[k]), math.cos(angle2[k])
+        gap = element(separation, k)
+        if math.isnan(gap):  # none was asked
+            gap = states[k, 0] * units[k]
+        asked = (gap, float(values[k]), float(units[k]), tension, cosine1, cosine2)
+        fill(room, i, state_in(states[k]), control, asked[0], asked[1], asked[2], asked[3], asked[4], asked[5])
+
+
+def restore_rows(
+    room: Room,
+    places: NDArray[np.int64],
+    control: int,
+    separation: Floats,
+    values: Floats,
+    units: Floats,
+    angle1: Floats,
+    angle2: Floats,
+    tension: float,
+    states: Floats,
+    statuses: NDArray[np.int8],
+) -> None:
+    """Fill rows of a room from reduced states, on all threads."""
+    columns = [np.ascontiguousarray(column) for column in (separation, values, units, angle1, angle2)]
+    asking = (control, places, *columns, float(tension), states, statuses, room)
+    over_rows(restored_range, places.size, _CHUNK, *asking)
 
 
 def asks_for_force_alone(fields: tuple[str, ...] | None, control: str) -> bool:

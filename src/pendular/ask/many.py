@@ -17,7 +17,7 @@ from ..exact.state import State, state_in
 from ..ground.compile import kernel
 from ..ground.rows import Own, element, entry, over_rows
 from .domain import is_in_domain
-from .fields import TO_GO_ON, Room, asks_for_force_alone, bridge_of, fill, leave_empty, room_for
+from .fields import TO_GO_ON, Room, asks_for_force_alone, bridge_of, fill, leave_empty, restore_rows, room_for
 from .liquid import Liquid
 from .pair import Pair
 from .problem import LIMITS, Control, Limit, reduce, warn_of_failures
@@ -87,33 +87,6 @@ def fields_range(
             fill(room, i, state_in(row), control, gap, held, unit, tension, cosine1, cosine2)
         else:
             leave_empty(room, i, status)
-
-
-@entry(plain_cost=3e-5)
-def restored_range(
-    control: int,
-    places: NDArray[np.int64],
-    separation: Floats,
-    values: Floats,
-    units: Floats,
-    angle1: Floats,
-    angle2: Floats,
-    tension: float,
-    states: Floats,
-    statuses: Statuses,
-    room: Room,
-    start: int,
-    stop: int,
-) -> None:
-    """Fields of rows of states, each at its place in the room."""
-    for k in range(start, stop):
-        i = places[k]
-        if statuses[k] != FOUND:
-            leave_empty(room, i, statuses[k])
-            continue
-        cosine1, cosine2 = math.cos(angle1[k]), math.cos(angle2[k])
-        asked = (float(separation[k]), float(values[k]), float(units[k]), tension, cosine1, cosine2)
-        fill(room, i, state_in(states[k]), control, asked[0], asked[1], asked[2], asked[3], asked[4], asked[5])
 
 
 def _plainly(room: Room, statuses: Statuses, *asking: Any) -> None:
@@ -210,5 +183,4 @@ def _fill_rest(
     problem = reduce(pair, control._replace(value=value), liquid, gap)
     states, found = batch.answer_rest(batch.STABLE, held, problem.rows, LIMITS[limit])
     statuses[left] = found
-    restoring = (held, left, gap, value, problem.length, angle1, angle2, float(liquid.surface_tension), states, found)
-    over_rows(restored_range, left.size, _CHUNK, *restoring, room)
+    restore_rows(room, left, held, gap, value, problem.length, angle1, angle2, liquid.surface_tension, states, found)

@@ -18,6 +18,7 @@ from ..exact.state import State
 from ..ground.check import broadcast, in_range, plain, quantity
 from ..ground.warn import warn
 from .domain import DEEPEST_OVERLAP, LEAST_VOLUME, MOST_SUCTION, MOST_VOLUME, NARROWEST
+from .fields import bridge_of, restore_rows, room_for
 from .liquid import Liquid, suction_from_humidity
 from .pair import Pair, check_pair, has_planes
 from .result import FIELDS, Bridge
@@ -240,12 +241,27 @@ def restore(
         row, unit = problem.rows[0].tolist(), problem.length.item()
         met = {name: value.item() for name, value in asked.items()}
         return _in_si(State(*states[0].tolist()), row, unit, statuses.item(), met, problem.surface_tension, _ONE)
+    if not extra:
+        return _restored(problem, states, statuses, separation)
     apart = problem.shape + (1,) * len(extra)
     state = State(*np.moveaxis(states.reshape(*shape, -1), -1, 0))
     rows = np.moveaxis(np.broadcast_to(problem.rows.reshape(*apart, 6), (*shape, 6)), -1, 0)
     units = np.broadcast_to(problem.length.reshape(apart), shape)
     met = {name: value.reshape(apart) for name, value in asked.items()}
     return _in_si(state, rows, units, statuses.reshape(shape), met, problem.surface_tension, _MANY)
+
+
+def _restored(problem: Problem, states: Floats, statuses: NDArray[np.int8], separation: Floats | None) -> Bridge:
+    """The same for an array of single bridges, filled row by row."""
+    room = room_for(len(states), None)
+    gap = np.array([np.nan]) if separation is None else np.ravel(separation)
+    angle1, angle2 = problem.rows[:, 3], problem.rows[:, 5]
+    asked = (gap, control_si(problem), problem.length, angle1, angle2, problem.surface_tension)
+    restore_rows(room, np.arange(len(states)), problem.held, *asked, states, statuses)
+    with np.errstate(divide="ignore"):
+        radii = (problem.length / problem.rows[:, column] for column in (2, 4))
+        solid_radius = tuple(radius.reshape(problem.shape) for radius in radii)
+    return bridge_of(room, problem.shape, (solid_radius[0], solid_radius[1]), problem.surface_tension, None)
 
 
 def warn_of_failures(statuses: NDArray[np.int8]) -> None:
