@@ -211,6 +211,34 @@ def test_contact_angles_of_two_materials(plugin, tmp_path):
             lmp.close()
 
 
+@pytest.mark.parametrize("newton", ["on", "off"])
+@pytest.mark.parametrize("control", ["suction", "volume"])
+def test_the_viscosity_of_the_liquid(plugin, tables, control, newton):
+    """Lubrication between grains that move apart or together, with the liquid that there is, across the box's edge."""
+    radii, viscosity, smallest = (50e-6, 60e-6), 1e-3, 2e-7
+    held = {"suction": 2e4, "volume": 1e-15}[control]
+    law = tables.law(control, held, f"viscosity {viscosity} smallest_gap {smallest}")
+    lmp = two_grains(plugin, law, radii, -1e-12, start=900e-6, newton=newton)
+    lmp.commands_string("compute stress all pressure NULL pair\nrun 0")
+    mean = 2.0 * radii[0] * radii[1] / sum(radii)
+    for gap, step, speed in ((1e-8, 1e-8 + 1e-12, 0.02), (1e-6, 1e-6 - 1e-8, 0.02), (2e-6, 1e-6, -0.05)):
+        lmp.command(f"velocity moved set {speed} 0.3 0 units box")
+        move(lmp, step)
+        rows, force = rows_of(lmp), forces(lmp)
+        distance = max(gap, smallest)
+        inside = 1.0 - (1.0 + 2.0 * rows[0, VOLUME] / (math.pi * mean * distance**2)) ** -0.5
+        drag = 1.5 * math.pi * viscosity * mean**2 * inside**2 * speed / distance
+        assert abs(drag) > 1e-3 * rows[0, FORCE]
+        np.testing.assert_allclose(force[0], [rows[0, FORCE] + drag, 0.0, 0.0], rtol=1e-9, atol=1e-20)
+        np.testing.assert_allclose(force[1], -force[0], rtol=1e-12, atol=1e-20)
+        stress = lmp.numpy.extract_compute("stress", 0, 1)[0] * 1e-9
+        assert stress == pytest.approx(-force[0, 0] * (sum(radii) + gap), rel=1e-9)
+    lmp.commands_string(f"comm_modify vel no\npair_style pendular\npair_coeff * * {law}")
+    with pytest.raises(Exception, match="viscosity needs 'comm_modify vel yes'"):
+        lmp.command("run 0")
+    lmp.close()
+
+
 def step_of_the_list(table, lmp, box, radii, state, held):
     """A step of the contact list: force on each grain, virial, energy and bridges.
 
@@ -743,6 +771,7 @@ EXACT = f"exact contact_angle 20 suction 2e4 surface_tension {TENSION}"
         ("exact contact_angle 20 suction 1 surface_tension -1", "surface_tension -1 is not > 0"),
         ("exact contact_angle 20 suction v_no surface_tension 1", "variable no is not there, or not of equal style"),
         (f"{EXACT} formation -1e-9", "formation -1e-9 is not >= 0"),
+        (f"{EXACT} viscosity 1e-3", "viscosity and smallest_gap go together"),
         (f"{EXACT} colour blue", "pair_coeff does not know colour"),
         (f"{EXACT} formation", "formation: a number is missing after it"),
     ],
@@ -831,6 +860,15 @@ def test_atoms_without_radius_or_id_are_refused(plugin, style, message):
         pair_coeff * * {EXACT}
     """)
     with pytest.raises(Exception, match=message):
+        lmp.command("run 0")
+    lmp.close()
+
+
+def test_a_fix_that_moves_atoms_from_rank_to_rank_comes_later(plugin):
+    lmp = opened(plugin)
+    first = TOUCHING.replace("pair_style", "fix even all balance 10 1.1 shift xyz 5 1.05\n    pair_style")
+    lmp.commands_string(f"{first}\npair_coeff * * pendular {EXACT}")
+    with pytest.raises(Exception, match="fix even moves atoms from rank to rank; define it after pair_style"):
         lmp.command("run 0")
     lmp.close()
 

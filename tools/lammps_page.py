@@ -105,7 +105,7 @@ print(f"{number:.0f} bridges, {1e12 * liquid:.3f} nL, {1e9 * energy:.2f} nJ")  #
 
 ```text
 pair_style hybrid/overlay granular pendular [film NAME share S rupture film|bridges]
-pair_coeff I J pendular SOURCE HELD surface_tension G [formation D] [reach D]
+pair_coeff I J pendular SOURCE HELD surface_tension G [formation D] [reach D] [viscosity M smallest_gap D]
 ```
 
 | | |
@@ -120,19 +120,26 @@ pair_coeff I J pendular SOURCE HELD surface_tension G [formation D] [reach D]
 | `v_name` for `P`, `H` or `V` | an equal-style variable: wetting and drying in time |
 | `formation D` | separation at which a bridge forms, as by films that meet; at contact by default |
 | `reach D` | longest separation of a bridge, for the neighbour list |
+| `viscosity M smallest_gap D` | a viscous force along the line of centres, see below; without it there is none |
 | `film`, `share`, `rupture` | liquid on the grains, [below](#where-the-liquid-is) |
 
 By default `reach` is the rupture distance of the largest grains at the beginning of a run. It has to be given if a
 suction will fall, or if volumes are larger than `V`. The Kelvin pressure is $RT$ over the molar volume of the liquid,
 135.0 MPa for water at 20 °C.
 
+The viscous force is that of [Pitois et al. 2000](https://doi.org/10.1006/jcis.2000.7096), lubrication in a bridge of
+finite extent between grains that move apart at the speed $\\dot D$, with the mean radius $\\bar R = 2R_1R_2/(R_1+R_2)$;
+at smaller gaps than `smallest_gap`, the roughness of the grains, the gap is that:
+
+$$F_v = \\frac{3\\pi\\mu \\bar R^2 \\dot D}{2D} \\left(1 - \\frac{1}{\\sqrt{1 + 2V/(\\pi\\bar R D^2)}}\\right)^2$$
+
 A bridge stands until its rupture distance, as exact as the table, and forms again as `formation` says. Grains that
 overlap have the bridge of grains that touch. Units are those of LAMMPS, `si`, `cgs`, `micro`, `nano` or `lj`, with
 suction, volume and surface tension in them. Energy and virial count in `pe`, `press`, `compute pe/atom` and `compute
 stress/atom`; `compute cap all pressure NULL pair/hybrid pendular` is the stress of the bridges alone. Bridges exert no
-torque, and no damping. `newton` may be on or off. A periodic box must be twice as wide as bridges reach between
-centres. The time step must resolve the contacts and the [stiffness of the bridges](howto/particle_codes.md). Whatever
-would give wrong forces ends with one line that says what to change.
+torque. `replicate` stands before `pair_style`. `newton` may be on or off. A periodic box must be twice as wide as
+bridges reach between centres. The time step must resolve the contacts and the [stiffness of the
+bridges](howto/particle_codes.md). Whatever would give wrong forces ends with one line that says what to change.
 
 ```text
 compute ID group pendular/bridges [id1 id2 separation force volume suction energy rupture_distance]

@@ -6,6 +6,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "modify.h"
 #include "pair_pendular.h"
 
 using namespace LAMMPS_NS;
@@ -51,6 +52,12 @@ void FixBridges::init()
 {
     if (!atom->tag_enable)
         error->all(FLERR, "Pair pendular: atoms have no ids; leave out 'atom_modify id no'");
+    for (const Fix *fix : modify->get_fix_list()) {
+        if (fix == this)
+            break;
+        if (fix->pre_exchange_migrate)
+            error->all(FLERR, "Pair pendular: fix {} moves atoms from rank to rank; define it after pair_style", fix->id);
+    }
 }
 
 /* From the list of the pair style to the atoms. Either atom of a bridge will have it, for the next list may begin at

@@ -54,6 +54,8 @@ FixWall::FixWall(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), law(l
         if (!(film.share > 0.0 && film.share <= 1.0))
             refuse(fmt::format("share {} is not in (0, 1]", arg[next + 1]));
     }
+    if (law.is_viscous())
+        refuse("viscosity: is for bridges between grains");
     next += read_walls(narg - next, arg + next);
     if (next < narg)
         refuse(fmt::format("does not know {}", arg[next]));

@@ -14,7 +14,7 @@ using namespace LAMMPS_NS;
 
 namespace pendular_lammps {
 namespace {
-    constexpr double DEGREE = 0.017453292519943295;
+    constexpr double PI = 3.14159265358979323846, DEGREE = PI / 180.0;
     const char *const UNITS[] = {"si", "cgs", "micro", "nano", "lj"};
 }    // namespace
 
@@ -45,7 +45,7 @@ int Law::read(int narg, char **arg)
         const std::string word = arg[i];
         const bool is_held = word == "suction" || word == "volume" || word == "humidity";
         const bool is_known = is_held || word == "surface_tension" || word == "formation" || word == "reach"
-            || word == "kelvin_pressure";
+            || word == "kelvin_pressure" || word == "viscosity" || word == "smallest_gap";
         if (!is_known)
             break;
         if (i + 1 >= narg)
@@ -56,6 +56,10 @@ int Law::read(int narg, char **arg)
             tension = positive("surface_tension", arg[i + 1]);
         else if (word == "kelvin_pressure")
             kelvin_pressure = positive("kelvin_pressure", arg[i + 1]);
+        else if (word == "viscosity")
+            viscosity = positive("viscosity", arg[i + 1]);
+        else if (word == "smallest_gap")
+            smallest_gap = positive("smallest_gap", arg[i + 1]);
         else {
             const double value = number(arg[i + 1]);
             if (!(value >= 0.0 && std::isfinite(value)))
@@ -68,6 +72,8 @@ int Law::read(int narg, char **arg)
         refuse("surface_tension is missing");
     if (kind < 0)
         refuse("what is held is missing: suction, volume or humidity");
+    if (is_viscous() != (smallest_gap > 0.0))
+        refuse("viscosity and smallest_gap go together: without a smallest gap the force has no bound");
     if (!source->holds(kind))
         refuse(fmt::format("the table is one of a held {}, and cannot hold the {}",
             kind == PENDULAR_SUCTION ? "volume" : "suction", kind == PENDULAR_SUCTION ? "suction" : "volume"));
@@ -199,6 +205,17 @@ double Law::volume(const Bridge &bridge, const Solids &solids, double separation
 double Law::suction(const Bridge &bridge, const Solids &solids, double separation) const
 {
     return is_drained() ? bridge.held : source->liquid(kind, bridge, solids, tension, separation);
+}
+
+/* Pitois, Moucheront and Chateau, J. Colloid Interface Sci. 231 (2000) 26, doi:10.1006/jcis.2000.7096, with the mean
+   radius for unequal spheres: lubrication, less what the liquid beyond the edge of the bridge would add. */
+double Law::drag(const Bridge &bridge, const Solids &solids, double separation, double speed) const
+{
+    const double gap = std::fmax(separation, smallest_gap);
+    const double mean = 2.0 / (1.0 / solids.radius1 + 1.0 / solids.radius2);
+    const double liquid = volume(bridge, solids, separation);
+    const double part = 1.0 - 1.0 / std::sqrt(1.0 + 2.0 * liquid / (PI * mean * gap * gap));
+    return 1.5 * PI * viscosity * mean * mean * part * part * speed / gap;
 }
 
 std::string Law::refusal(double value, const Solids &solids) const

@@ -8,7 +8,7 @@
 namespace pendular_lammps {
 
 /* FILE | exact contact_angle A [A2], then suction S | volume V | humidity H kelvin_pressure P, surface_tension G, and
-   perhaps formation D, reach D. What is held may be an equal-style variable, v_name. */
+   perhaps formation D, reach D, viscosity M smallest_gap D. What is held may be an equal-style variable, v_name. */
 class Law : protected LAMMPS_NS::Pointers {
 public:
     double formation = 0.0; /* separation at which a bridge forms */
@@ -46,6 +46,11 @@ public:
     double volume(const Bridge &, const Solids &, double separation) const;
     double suction(const Bridge &, const Solids &, double separation) const;
 
+    bool is_viscous() const { return viscosity > 0.0; }
+
+    /* Attraction of solids that move apart, by the viscosity of the liquid. */
+    double drag(const Bridge &, const Solids &, double separation, double speed) const;
+
     /* Why there was no number. */
     std::string refusal(double held, const Solids &) const;
 
@@ -53,7 +58,7 @@ private:
     std::string who, variable;
     std::shared_ptr<const Source> source;
     int kind = -1;
-    double tension = -1.0, held = NAN, kelvin_pressure = -1.0;
+    double tension = -1.0, held = NAN, kelvin_pressure = -1.0, viscosity = 0.0, smallest_gap = -1.0;
 
     int read_source(int narg, char **arg);
     int read_held(int narg, char **arg);

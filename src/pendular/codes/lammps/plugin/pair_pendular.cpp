@@ -145,8 +145,11 @@ void PairPendular::init_style()
             error->all(FLERR, "{}: film {} is not there; make it by 'fix ID all property/atom d_{}'", WHO, film.name,
                 film.name);
     }
-    for (const std::shared_ptr<Law> &law : laws)
+    for (const std::shared_ptr<Law> &law : laws) {
         law->refresh();
+        if (law->is_viscous() && !comm->ghost_velocity)
+            error->all(FLERR, "{}: viscosity needs 'comm_modify vel yes'", WHO);
+    }
     find_largest();
     radii_change = false;
     for (const Fix *fix : modify->get_fix_list())

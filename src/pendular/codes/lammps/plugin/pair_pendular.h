@@ -74,6 +74,8 @@ private:
     double pull_of(int number, double distance);
     double renewed_pull(int number, double distance);
     void add_force(int number);
+    void add_drags();
+    double *other_end(int j);
     void tally(int number, double pull_over_distance, double dx, double dy, double dz);
     void look_at_watched();
     double held_by(int i, int j, Law &, double offered) const;

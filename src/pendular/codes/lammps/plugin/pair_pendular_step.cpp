@@ -32,6 +32,7 @@ void PairPendular::compute(int eflag, int vflag)
     if (film.is_there())
         exchange_film();
     remove_broken();
+    add_drags();
     bring_home();
 }
 
@@ -123,6 +124,44 @@ double PairPendular::renewed_pull(int number, double distance)
     return pull;
 }
 
+/* Forces by the viscosity of the liquid, where a law has it. */
+void PairPendular::add_drags()
+{
+    bool is_any = false;
+    for (const std::shared_ptr<Law> &law : laws)
+        is_any = is_any || law->is_viscous();
+    if (!is_any)
+        return;
+    double **x = atom->x, **v = atom->v;
+    for (size_t k = 0; k < ends.size(); ++k) {
+        const int i = ends[k].i, j = ends[k].j;
+        const Law &law = *bridges[k].law;
+        if (!law.is_viscous())
+            continue;
+        const double way[3] = {x[j][0] - x[i][0], x[j][1] - x[i][1], x[j][2] - x[i][2]};
+        const double distance = std::sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
+        double speed = 0.0;
+        for (int m = 0; m < 3; ++m)
+            speed += (v[j][m] - v[i][m]) * way[m] / distance;
+        const double separation = distance - (atom->radius[i] + atom->radius[j]);
+        const double drag = law.drag(bridges[k], solids_of(law, i, j), separation, speed);
+        const double part = drag / distance;
+        double *other = other_end(j);
+        for (int m = 0; m < 3; ++m) {
+            atom->f[i][m] += part * way[m];
+            other[m] -= part * way[m];
+        }
+        if (evflag)
+            ev_tally(i, j, atom->nlocal, 1, 0.0, 0.0, -part, -way[0], -way[1], -way[2]);
+    }
+}
+
+/* Where the force on the second atom of a pair is added up. */
+double *PairPendular::other_end(int j)
+{
+    return !force->newton_pair && j >= atom->nlocal ? &on_ghosts[HOME * (j - atom->nlocal)] : atom->f[j];
+}
+
 void PairPendular::refuse(int i, int j, const std::string &why) const
 {
     error->one(FLERR, "Pair pendular: atoms {} and {}: {}", atom->tag[i], atom->tag[j], why);
@@ -196,11 +235,11 @@ void PairPendular::form(int i, int j, Law &law, double held)
 void PairPendular::add_force(int number)
 {
     double **x = atom->x, **f = atom->f;
-    const int i = ends[number].i, j = ends[number].j, local = atom->nlocal;
+    const int i = ends[number].i, j = ends[number].j;
     const double dx = x[j][0] - x[i][0], dy = x[j][1] - x[i][1], dz = x[j][2] - x[i][2];
     const double distance = std::sqrt(dx * dx + dy * dy + dz * dz);
     const double part = renewed_pull(number, distance) / distance;
-    double *other = !force->newton_pair && j >= local ? &on_ghosts[HOME * (j - local)] : f[j];
+    double *other = other_end(j);
     const double pull[3] = {dx * part, dy * part, dz * part};
     for (int k = 0; k < 3; ++k) {
         f[i][k] += pull[k];
