@@ -261,7 +261,7 @@ void PairPendular::find_row(int i)
         if (partner != end)
             take_over(i, j, *law, *partner, square > sum * sum);
         else if (square <= near * near)
-            watched.emplace_back(i, j);
+            watch(i, j);
     }
 }
 

@@ -4,7 +4,6 @@
 
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "bridge.h"
@@ -14,6 +13,12 @@
 #include "pair.h"
 
 namespace pendular_lammps {
+
+/* A pair without a bridge, and the square of the distance of the centres at which it may form one. */
+struct Watched {
+    int i, j;
+    double near;
+};
 
 /* Each pair of grains is in the list of one rank, which alone decides whether they have a bridge. */
 class PairPendular : public LAMMPS_NS::Pair {
@@ -53,7 +58,7 @@ private:
     std::vector<double> largest;            /* radius of each type */
     std::vector<Ends> former_ends, ends_apart; /* of the list before, and while a list is made */
     std::vector<Bridge> former_bridges, bridges_apart;
-    std::vector<std::pair<int, int>> watched; /* pairs that may come near enough for a bridge */
+    std::vector<Watched> watched;             /* pairs that may come near enough for a bridge */
     std::vector<int> broken;                  /* numbers of bridges */
     std::vector<Candidate> forming;
     std::vector<double> on_ghosts; /* force, energy and virial, where LAMMPS does not bring them home */
@@ -77,6 +82,8 @@ private:
     void add_drags();
     double *other_end(int j);
     void tally(int number, double pull_over_distance, double dx, double dy, double dz);
+    void watch(int i, int j);
+    double nearness(int i, int j) const;
     void look_at_watched();
     double held_by(int i, int j, Law &, double offered) const;
     void form(int i, int j, Law &, double held);

@@ -39,10 +39,13 @@ void PairPendular::compute(int eflag, int vflag)
 /* Suctions that are variables, and radii where a fix may change them. */
 void PairPendular::refresh()
 {
-    if (radii_change)
+    if (radii_change) {
         for (Ends &pair : ends)
             if (pair.sum != atom->radius[pair.i] + atom->radius[pair.j])
                 pair.sum = NAN;
+        for (Watched &pair : watched)
+            pair.near = nearness(pair.i, pair.j);
+    }
     for (const std::shared_ptr<Law> &law : laws)
         if (law->refresh() && law->is_drained())
             for (size_t k = 0; k < ends.size(); ++k)
@@ -56,13 +59,15 @@ void PairPendular::refresh()
 
 template <bool TALLIES> void PairPendular::add_forces()
 {
-    const double *const *x = atom->x;
-    double **f = atom->f;
-    const bool keeps_ghosts = !force->newton_pair;
     const int count = static_cast<int>(ends.size()), local = atom->nlocal;
+    if (count == 0)
+        return;
+    const double *x = atom->x[0]; /* rows lie side by side, and a pointer to each takes time */
+    double *f = atom->f[0];
+    const bool keeps_ghosts = !force->newton_pair;
     for (int k = 0; k < count; ++k) {
         const Ends &pair = ends[k];
-        const double *from = x[pair.i], *to = x[pair.j];
+        const double *from = x + 3L * pair.i, *to = x + 3L * pair.j;
         const double dx = to[0] - from[0], dy = to[1] - from[1], dz = to[2] - from[2];
         const double distance = std::sqrt(dx * dx + dy * dy + dz * dz);
         double pull = pair.touching;
@@ -74,8 +79,8 @@ template <bool TALLIES> void PairPendular::add_forces()
             }
         }
         const double part = pull / distance;
-        double *one = f[pair.i];
-        double *other = keeps_ghosts && pair.j >= local ? &on_ghosts[HOME * (pair.j - local)] : f[pair.j];
+        double *one = f + 3L * pair.i;
+        double *other = keeps_ghosts && pair.j >= local ? &on_ghosts[HOME * (pair.j - local)] : f + 3L * pair.j;
         one[0] += dx * part;
         one[1] += dy * part;
         one[2] += dz * part;
@@ -180,21 +185,31 @@ void PairPendular::tally(int number, double part, double dx, double dy, double d
 
 /* -- Bridges that form and break ------------------------------------------------------------------------------------ */
 
+double PairPendular::nearness(int i, int j) const
+{
+    const double near
+        = atom->radius[i] + atom->radius[j] + law_of[atom->type[i]][atom->type[j]]->formation;
+    return near * near;
+}
+
+void PairPendular::watch(int i, int j)
+{
+    watched.push_back({i, j, nearness(i, j)});
+}
+
 void PairPendular::look_at_watched()
 {
     double **x = atom->x;
-    const double *radius = atom->radius;
     size_t kept = 0;
-    for (const std::pair<int, int> &pair : watched) {
-        const int i = pair.first, j = pair.second;
+    for (size_t k = 0; k < watched.size(); ++k) {
+        const Watched pair = watched[k];
+        const int i = pair.i, j = pair.j;
         const double dx = x[j][0] - x[i][0], dy = x[j][1] - x[i][1], dz = x[j][2] - x[i][2];
-        const double square = dx * dx + dy * dy + dz * dz;
-        Law &law = *law_of[atom->type[i]][atom->type[j]];
-        const double near = radius[i] + radius[j] + law.formation;
-        if (square > near * near) {
+        if (dx * dx + dy * dy + dz * dz > pair.near) {
             watched[kept++] = pair;
             continue;
         }
+        Law &law = *law_of[atom->type[i]][atom->type[j]];
         if (film.is_there() && !law.is_drained()) {
             forming.push_back({i, j, &law});
             continue;
@@ -254,7 +269,7 @@ void PairPendular::remove_broken()
 {
     for (size_t n = broken.size(); n-- > 0;) {
         const int k = broken[n];
-        watched.emplace_back(ends[k].i, ends[k].j);
+        watch(ends[k].i, ends[k].j);
         ends[k] = ends.back();
         bridges[k] = std::move(bridges.back());
         ends.pop_back();
@@ -330,7 +345,7 @@ void PairPendular::form_from_film()
         const double sum = offered[0] + offered[1];
         const double held = sum > 0.0 ? held_by(pair.i, pair.j, *pair.law, sum) : NAN;
         if (std::isnan(held)) {
-            watched.emplace_back(pair.i, pair.j);
+            watch(pair.i, pair.j);
             continue;
         }
         form(pair.i, pair.j, *pair.law, held);
@@ -452,7 +467,7 @@ double PairPendular::memory_usage()
 {
     return Pair::memory_usage() + static_cast<double>(bridges.capacity() + former_bridges.capacity()) * sizeof(Bridge)
         + static_cast<double>(ends.capacity() + former_ends.capacity()) * sizeof(Ends)
-        + static_cast<double>(watched.capacity()) * sizeof(std::pair<int, int>);
+        + static_cast<double>(watched.capacity()) * sizeof(Watched);
 }
 
 }    // namespace pendular_lammps
