@@ -29,6 +29,7 @@ PAGES = {str(path.relative_to(DOCS)): path for path in sorted(DOCS.glob("**/*.md
 ELSEWHERE = {
     "laws.md": "test_law_pages.py",
     "yade.md": "test_yade.py",
+    "yade_engine.md": "test_yade_engine.py",
     "explorer.md": "test_web_page.py",
     "speed.md": "test_table.py",
     "c_header.md": "test_c_header.py",

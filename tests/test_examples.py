@@ -9,8 +9,9 @@ import pytest
 from tools.site_parts import run_script
 
 FOLDER = Path(__file__).parents[1] / "examples"
-ELSEWHERE = {  # run by test_yade_run.py and test_lammps_examples.py
+ELSEWHERE = {  # run by test_yade_run.py, test_yade_engine.py and test_lammps_examples.py
     "yade_pull.py",
+    "yade_engine.py",
     "two_grains.py",
     "wet_shear.py",
     "wet_shear_picture.py",

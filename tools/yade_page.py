@@ -28,7 +28,7 @@ INTRODUCTION = """\
 
 YADE's capillary laws read bridges under suction from tables. Pendular writes such tables for any contact angle below
 90°, says what error YADE will make with them, and checks tables that you have. This page is written by `uv run python
--m tools.yade_page`.
+-m tools.yade_page`. [Another module](yade_engine.md) needs none of them: any ratio of radii, both controls, walls.
 
 ```sh
 pendular export yade --contact-angle 20 --out tables

@@ -6,9 +6,9 @@ from string import Template
 
 from ... import __version__
 from ...ground.compile import has_compiler
-from ...ground.files import in_one_line, whole
 from ...ground.linkable import linkable, processor
 from ...ground.linking import linker, shared_library
+from ..folder import write_folder
 from .archive import archive
 from .kernels import FAILED, FUNCTIONS
 
@@ -52,10 +52,4 @@ def write(folder: Path) -> list[Path]:
     contents = static_files()
     if (compiler := linker()) is not None:
         contents[SHARED] = shared_library(compiler, SHARED, [linkable(FUNCTIONS, FAILED)])
-    with in_one_line("out", folder):
-        folder.mkdir(parents=True, exist_ok=True)
-    written = [folder / name for name in contents]
-    for path in written:
-        with in_one_line("out", path), whole(path) as draft:
-            draft.write_bytes(contents[path.name])
-    return written
+    return write_folder(folder, contents)

@@ -3,8 +3,8 @@
 from importlib.resources import files
 from pathlib import Path
 
-from ...ground.files import in_one_line, whole
 from ..c_header import table_header
+from ..folder import write_folder
 
 __all__ = ["FILES", "write"]
 
@@ -36,12 +36,5 @@ def write(folder: Path) -> list[Path]:
     >>> [path.name for path in write(Path(mkdtemp()))]
     ['cohesion_model_pendular.h', 'main.cpp', 'Makefile', 'pendular_table.h']
     """
-    texts = {name: (files(__package__) / name).read_text(encoding="utf-8") for name in FILES}
-    texts[_EVALUATOR] = table_header()
-    with in_one_line("out", folder):
-        folder.mkdir(parents=True, exist_ok=True)
-    written = [folder / name for name in texts]
-    for path in written:
-        with in_one_line("out", path), whole(path) as draft:
-            draft.write_text(texts[path.name], encoding="utf-8")
-    return written
+    own = {name: (files(__package__) / name).read_bytes() for name in FILES}
+    return write_folder(folder, own | {_EVALUATOR: table_header().encode()})

@@ -211,7 +211,7 @@ private:
     }
 
     /* Largest rupture distance, over the sum of the radii of two grains or over the radius of one at a wall, with a margin
-       for radii between those that are tried. */
+       for radii between those that are tried. Pairs that the table does not know are refused where they touch. */
     double reach(double smallest, double largest) const
     {
         const int count = 33;
@@ -226,9 +226,8 @@ private:
                             = is_wall_ ? INFINITY : smallest + (largest - smallest) * l / (count - 1);
                         const double end = pendular_table_rupture_distance(
                             &table, control_of(table), radius1, radius2, surface_tension_);
-                        if (!(end >= 0.0))
-                            fail(out_of_range(table, radius1, radius2));
-                        farthest = std::max(farthest, end / (is_wall_ ? radius1 : radius1 + radius2));
+                        if (end > 0.0)
+                            farthest = std::max(farthest, end / (is_wall_ ? radius1 : radius1 + radius2));
                     }
                 }
             }

@@ -16,6 +16,7 @@ from . import (  # noqa: F401, registers the commands
     export_pair_table,
     export_table,
     export_wasm,
+    export_yade_engine,
     fits,
     laws,
     packing,

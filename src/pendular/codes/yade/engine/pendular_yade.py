@@ -1,0 +1,254 @@
+"""Exact capillary bridges in YADE: any sizes of grains, flat walls, constant suction or constant volume.
+
+    pendular export table --contact-angle 20 --out w.bridges
+    pendular export yade-engine --out engine
+
+    import sys
+    sys.path.append("engine")
+    from pendular_yade import Bridges
+
+    bridges = Bridges("w.bridges", suction=5e3, surface_tension=0.0728)
+    O.engines = [ForceResetter(), InsertionSortCollider(...), InteractionLoop(...),
+                 PyRunner(command="bridges.step()", iterPeriod=1, initRun=True), NewtonIntegrator()]
+
+A bridge forms where two grains, or a grain and a wall, touch, and lives to its rupture distance.
+
+Copyright (c) 2026, the Pendular developers. SPDX-License-Identifier: BSD-3-Clause. Without any warranty.
+"""
+
+import ctypes
+from collections import deque
+from pathlib import Path
+
+import numpy as np
+
+_HERE = Path(__file__).resolve().parent
+_RUPTURE, _LIQUID, _ENERGY = 0, 2, -2  # answers of pendular_table.h
+_SIZES = 17
+_MARGIN = 1.02  # for sizes between those that are tried
+
+
+class Bridges:
+    """The bridges of all spheres and walls of a simulation.
+
+    Parameters
+    ----------
+    table : str
+        File that ``pendular export table`` wrote, of one contact angle.
+    suction, volume : float
+        What is held, that of the table: the suction, [Pa], or the liquid of each bridge, [m3]. It may be set anew
+        between two steps: ``bridges.held = 6e3``.
+    surface_tension : float
+        [N/m].
+    wall_table : str, optional
+        File of bridges with walls, if their contact angle is another one; the first angle is that of the grains.
+    distant : bool
+        Whether all pairs within reach have a bridge at the first step, and not only those that touch.
+    skin : float, optional
+        How far two grains may approach before neighbours are sought anew; else a tenth of the smallest radius, [m].
+    """
+
+    def __init__(self, table, *, surface_tension, suction=None, volume=None, wall_table=None, distant=False, skin=None):
+        self._c = _library()
+        self._grains = self._opened(table)
+        self._walls = self._grains if wall_table is None else self._opened(wall_table)
+        is_volume, sides, *_ = self._about(self._grains)
+        if sides == 2:
+            raise ValueError(f"table: {str(table)!r} has two contact angles; grains have one, and walls a wall_table")
+        if self._about(self._walls)[0] != is_volume:
+            raise ValueError(f"wall_table: {str(wall_table)!r} does not hold what the table of the grains holds")
+        name, other = ("volume", suction) if is_volume else ("suction", volume)
+        self.held = volume if is_volume else suction
+        if self.held is None or other is not None:
+            raise ValueError(f"{name}: is what {str(table)!r} holds; give it, and it alone")
+        if not surface_tension > 0.0:
+            raise ValueError(f"surface_tension: {surface_tension!r} is not positive")
+        self.surface_tension = surface_tension
+        self._name, self._forms_apart, self._skin = name, distant, skin
+        self._bodies = -1
+
+    # What is asked ---------------------------------------------------------------------------------------------------
+
+    def found(self):
+        """The bridges of the last step, as a structured array: two ids, separation, force, liquid, energy.
+
+        The liquid is the volume of a bridge under suction, [m3], and its suction at constant volume, [Pa].
+        """
+        at = np.flatnonzero(self._has_bridge)
+        kinds = [("id1", int), ("id2", int), *((each, float) for each in ("separation", "force", "liquid", "energy"))]
+        rows = np.empty(at.size, kinds)
+        rows["id1"], rows["id2"] = self._ids[self._first[at]], self._ids[self._second[at]]
+        rows["separation"], rows["force"] = self._separation[at], self._attraction[at]
+        for n, pair in enumerate(at):
+            rows["liquid"][n], rows["energy"][n] = (self._value(asked, pair) for asked in (_LIQUID, _ENERGY))
+        return rows
+
+    def step(self):
+        """Add the forces of the bridges, for YADE's next step."""
+        from yade import O
+        from yade._utils import coordsAndDisplacements
+
+        if len(O.bodies) != self._bodies:
+            self._take_bodies(O)
+        places = np.array([coordsAndDisplacements(axis)[0] for axis in range(3)])
+        if self._is_stale(places):
+            self._seek(places)
+        forces, place = np.zeros_like(places), ctypes.c_size_t()
+        arrays = (self._first, self._second, self._has_bridge), (places, self._radius, self._axis, forces)
+        pairs, bodies = ([ctypes.c_void_p(each.ctypes.data) for each in group] for group in arrays)
+        out = [ctypes.c_void_p(each.ctypes.data) for each in (self._separation, self._attraction)]
+        status = self._c.pendular_yade_step(
+            self._grains, self._walls, ctypes.c_double(self.held), ctypes.c_double(self.surface_tension),
+            int(self._forms_apart), ctypes.c_size_t(self._first.size), *pairs, ctypes.c_size_t(self._radius.size),
+            *bodies, *out, ctypes.byref(place),
+        )  # fmt: skip
+        if status:
+            raise ValueError(self._out_of_range(place.value))
+        self._forms_apart = False
+        pulled = np.flatnonzero(forces.any(axis=0))
+        rows = zip(*forces[:, pulled].tolist(), strict=True)
+        deque(map(O.forces.addF, self._ids[pulled].tolist(), rows), 0)  # the quickest of all loops
+
+    # Bodies and neighbours -------------------------------------------------------------------------------------------
+
+    def _take_bodies(self, omega):
+        """Ids, radii and walls of the simulation."""
+        if omega.periodic:
+            raise ValueError("cell: bridges over the faces of a periodic cell are not there")
+        bodies = list(omega.bodies)
+        if any(body.isClump or body.isClumpMember for body in bodies):
+            raise ValueError("bodies: clumps have no bridges")
+        self._bodies = len(bodies)
+        ids = np.array([body.id for body in bodies])
+        kinds = [body.shape.__class__.__name__ for body in bodies]
+        radius = [body.shape.radius if kind == "Sphere" else np.nan for body, kind in zip(bodies, kinds, strict=True)]
+        axis = [body.shape.axis if kind == "Wall" else -1 for body, kind in zip(bodies, kinds, strict=True)]
+        self._ids, self._radius, self._axis = ids, np.array(radius), np.array(axis, np.int8)
+        self._spheres, self._planes = np.flatnonzero(self._radius > 0.0), np.flatnonzero(self._axis >= 0)
+        self._sought = None
+        nothing = np.empty(0, np.int32)
+        self._first, self._second, self._has_bridge = nothing, nothing, np.empty(0, np.uint8)
+
+    def _is_stale(self, places):
+        """Whether grains may have come near that are no neighbours yet."""
+        if self._sought is None or self._sought_for != (self.held, self.surface_tension):
+            return True
+        moved = places - self._sought
+        return 2.0 * np.sqrt((moved * moved).sum(axis=0).max(initial=0.0)) > self._near
+
+    def _seek(self, places):
+        """Pairs of neighbours, with the bridges that they have."""
+        radii = self._radius[self._spheres]
+        self._near = 0.1 * radii.min(initial=np.inf) if self._skin is None else self._skin
+        self._sought, self._sought_for = places, (self.held, self.surface_tension)
+        far = self._near + self._reach(radii)
+        pairs = [*_near_spheres(self._spheres, places[:, self._spheres].T, radii, far)]
+        for wall in self._planes:
+            axis = self._axis[wall]
+            away = np.abs(places[axis, self._spheres] - places[axis, wall]) - radii
+            near = self._spheres[away < far]
+            pairs.append(np.column_stack([near, np.full_like(near, wall)]))
+        both = np.concatenate(pairs) if pairs else np.empty((0, 2), int)
+        kept = self._keys(self._first, self._second)[self._has_bridge > 0]
+        keys = self._keys(*both.T)
+        self._first, self._second = (np.ascontiguousarray(column, np.int32) for column in both.T)
+        self._has_bridge = np.isin(keys, kept).astype(np.uint8)
+        self._separation, self._attraction = np.empty(keys.size), np.empty(keys.size)
+
+    def _keys(self, first, second):
+        return np.asarray(first, np.int64) * self._radius.size + np.asarray(second, np.int64)
+
+    def _reach(self, radii):
+        """Largest rupture distance of all pairs of sizes; those that the table does not know are refused in touch."""
+        if not radii.size:
+            return 0.0
+        sizes = np.geomspace(radii.min(), radii.max(), _SIZES)
+        partners = [(self._grains, size, other) for size in sizes for other in sizes]
+        partners += [(self._walls, size, np.inf) for size in sizes] if self._planes.size else []
+        ends = [self._asked(table, _RUPTURE, 0.0, radius1, radius2) for table, radius1, radius2 in partners]
+        return _MARGIN * float(np.nan_to_num(ends).max())
+
+    # The table -------------------------------------------------------------------------------------------------------
+
+    def _opened(self, path):
+        table = ctypes.create_string_buffer(self._c.pendular_yade_size())
+        code = self._c.pendular_yade_open(str(path).encode(), table)
+        if code:
+            raise ValueError(f"table: {str(path)!r}: {self._c.pendular_yade_error(code).decode()}")
+        return table
+
+    def _about(self, table):
+        numbers = np.empty(6)
+        self._c.pendular_yade_about(table, ctypes.c_void_p(numbers.ctypes.data))
+        return numbers.tolist()
+
+    def _asked(self, table, asked, separation, radius1, radius2):
+        numbers = map(ctypes.c_double, (separation, self.held, radius1, radius2, self.surface_tension))
+        return self._c.pendular_yade_value(table, asked, *numbers)
+
+    def _partner(self, pair):
+        """Table and radii of a pair."""
+        i, j = self._first[pair], self._second[pair]
+        if self._axis[j] >= 0:
+            return self._walls, self._radius[i], np.inf
+        return self._grains, self._radius[i], self._radius[j]
+
+    def _value(self, asked, pair):
+        table, radius1, radius2 = self._partner(pair)
+        return self._asked(table, asked, self._separation[pair], radius1, radius2)
+
+    def _out_of_range(self, pair):
+        return self._told(*self._partner(pair))
+
+    def _told(self, table, radius1, radius2):
+        _, _, low, high, least, largest = self._about(table)
+        pair = f"radii {radius1:g} and {radius2:g} and surface tension {self.surface_tension:g}"
+        covered = f"reduced {self._name} {low:g} to {high:g}, radius ratio {least:g} to {largest:g}"
+        return f"{self._name}: {self.held:g} with {pair} is out of the range of its table: {covered}"
+
+
+def _near_spheres(numbers, places, radii, far):
+    """Pairs of spheres whose surfaces are nearer than so far: by classes of size, each twice as large as the last."""
+    if not radii.size:
+        return
+    classes = np.floor(np.log2(radii / radii.min())).astype(int)
+    groups = [np.flatnonzero(classes == each) for each in np.unique(classes)]
+    for n, group in enumerate(groups):
+        for other in groups[n:]:
+            within = far + radii[group].max() + radii[other].max()
+            for one, its in _in_cells(places[group], places[other], within):
+                i, j = group[one], other[its]
+                gap = np.sqrt(((places[i] - places[j]) ** 2).sum(axis=1)) - radii[i] - radii[j]
+                is_pair = (gap < far) & ((i < j) if other is group else True)
+                yield np.column_stack([numbers[i[is_pair]], numbers[j[is_pair]]])
+
+
+def _in_cells(places, others, size):
+    """Pairs of points in the same cell, or in two that touch, one kind of neighbour after another."""
+    low = np.minimum(places.min(axis=0), others.min(axis=0))
+    cells, its_cells = (1 + np.floor((each - low) / size).astype(np.int64) for each in (places, others))
+    counts = 2 + np.maximum(cells.max(axis=0), its_cells.max(axis=0))
+    strides = np.array([counts[1] * counts[2], counts[2], 1])
+    keys = its_cells @ strides
+    order = np.argsort(keys)
+    keys = keys[order]
+    for shift in np.ndindex(3, 3, 3):
+        wanted = (cells + shift - 1) @ strides
+        start, stop = (np.searchsorted(keys, wanted, side) for side in ("left", "right"))
+        found = stop - start
+        one = np.repeat(np.arange(found.size), found)
+        place = np.arange(one.size) - np.repeat(np.cumsum(found) - found, found)
+        yield one, order[np.repeat(start, found) + place]
+
+
+def _library():
+    """The functions of C that stand beside this file."""
+    path = _HERE / "libpendular_yade.so"
+    if not path.exists():
+        command = "cc -O3 -march=native -shared -fPIC -o libpendular_yade.so pendular_yade.c -lm"
+        raise ValueError(f"engine: '{path}' is not there; in its folder: {command}")
+    library = ctypes.CDLL(str(path))
+    library.pendular_yade_size.restype = ctypes.c_size_t
+    library.pendular_yade_error.restype = ctypes.c_char_p
+    library.pendular_yade_value.restype = ctypes.c_double
+    return library

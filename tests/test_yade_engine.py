@@ -1,0 +1,191 @@
+"""The engine that gives YADE exact bridges: its neighbours and refusals here, its forces in YADE itself.
+
+apt-get install -y --no-install-recommends yade gcc && uv run --group test pytest -m yade
+"""
+
+import json
+import math
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pendular as pl
+from pendular.codes.yade.engine import SHARED, pendular_yade, write
+
+SEED = 1915
+ROOT = Path(__file__).parents[1]
+SCRIPT = ROOT / "tests" / "yade_scripts" / "engine.py"
+EXAMPLE = ROOT / "examples" / "yade_engine.py"
+TENSION, SUCTION, VOLUME = 0.0728, 5e3, 1e-16
+needs_c = pytest.mark.skipif(shutil.which("gcc") is None, reason="gcc is not installed")
+
+
+def in_yade(function):
+    """Mark a test that runs YADE."""
+    missing = shutil.which("yade") is None
+    reason = "YADE is not installed: apt-get install -y --no-install-recommends yade"
+    return pytest.mark.yade(pytest.mark.long(pytest.mark.skipif(missing, reason=reason)(function)))
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """The engine, and tables under suction, at constant volume, and for walls of another angle."""
+    path = tmp_path_factory.mktemp("yade")
+    write(path / "engine")
+    for name, table in tables().items():
+        table.save(path / f"{name}.bridges")
+    return path
+
+
+def tables():
+    return {
+        "suction": pl.tabulate(math.radians(20), reduced=(0.05, 100.0), tolerance=1e-6),
+        "volume": pl.tabulate(math.radians(20), "volume", reduced=(1e-4, 0.05), tolerance=1e-6),
+        "walls": pl.tabulate(np.deg2rad([20.0, 60.0]), reduced=(0.05, 100.0), tolerance=1e-6),
+    }
+
+
+def simulated(folder, script):
+    """What YADE says of a script."""
+    done = subprocess.run(
+        ["yade", "-n", "-x", str(script)], cwd=folder, capture_output=True, text=True, timeout=300, check=False
+    )
+    return done.stdout + done.stderr
+
+
+# The command -------------------------------------------------------------------------------------------------------
+
+
+def test_the_command_tells_what_it_wrote(run, tmp_path, monkeypatch):
+    code, told, _ = run("export", "yade-engine", "--out", tmp_path / "engine")
+    assert code == 0
+    names = ["pendular_yade.py", "pendular_yade.c", "pendular_table.h"]
+    assert [Path(line.split(":")[0]).name for line in told.splitlines()][:3] == names
+    monkeypatch.setattr("pendular.codes.library.write.shutil.which", lambda name: None)
+    code, told, _ = run("export", "yade-engine", "--out", tmp_path / "bare")
+    assert told.splitlines()[3] == f"{SHARED}: not written, for there is no C compiler (cc, gcc or clang) to make it"
+    monkeypatch.setattr(pendular_yade, "_HERE", tmp_path / "bare")
+    with pytest.raises(ValueError, match=r"^engine: '.*libpendular_yade\.so' is not there; in its folder: cc -O3"):
+        pendular_yade.Bridges("w.bridges", suction=SUCTION, surface_tension=TENSION)
+
+
+@needs_c
+def test_the_loop_compiles_without_a_warning(folder, tmp_path):
+    warned = ("-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic")
+    subprocess.run(["gcc", *warned, "-c", "-o", tmp_path / "o", folder / "engine" / "pendular_yade.c"], check=True)
+
+
+# Neighbours and refusals -------------------------------------------------------------------------------------------
+
+
+def test_neighbours_are_all_that_are_near():
+    print(f"seed {SEED}")
+    random = np.random.default_rng(SEED)
+    for spread in (0.0, 1.0, 5.0):
+        radii = 1e-5 * np.exp(spread * random.random(400))
+        places = random.uniform(0.0, 20.0, (400, 3)) * np.median(radii)
+        numbers, far = 7 + np.arange(400), 0.3 * np.median(radii)
+        found = np.concatenate([*pendular_yade._near_spheres(numbers, places, radii, far)])
+        apart = np.linalg.norm(places[:, None] - places[None], axis=-1) - radii[:, None] - radii
+        expected = {(i + 7, j + 7) for i, j in np.argwhere(apart < far) if i < j}
+        assert {tuple(sorted(pair)) for pair in found.tolist()} == expected
+        assert len(found) == len(expected) > 100
+
+
+@needs_c
+def test_what_cannot_be_is_refused_in_one_line(folder, monkeypatch):
+    monkeypatch.setattr(pendular_yade, "_HERE", folder / "engine")
+    suction, volume, walls, tension = (
+        str(folder / "suction.bridges"), str(folder / "volume.bridges"), str(folder / "walls.bridges"),
+        {"surface_tension": TENSION},
+    )  # fmt: skip
+    for given, reason in (
+        ({"table": "none.bridges", "suction": 1.0, **tension}, r"table: 'none.bridges': the file cannot be read"),
+        ({"table": suction, **tension}, r"suction: is what .* holds; give it, and it alone"),
+        ({"table": suction, "suction": 1.0, "volume": 1.0, **tension}, r"suction: is what .* and it alone"),
+        ({"table": volume, "suction": 1.0, **tension}, r"volume: is what .* holds; give it, and it alone"),
+        ({"table": walls, "suction": 1.0, **tension}, r"table: .* has two contact angles; grains have one"),
+        ({"table": suction, "wall_table": volume, "suction": 1.0, **tension}, r"wall_table: .* does not hold"),
+        ({"table": suction, "suction": 1.0, "surface_tension": 0.0}, r"surface_tension: 0.0 is not positive"),
+    ):
+        with pytest.raises(ValueError, match=rf"^{reason}[^\n]*$"):
+            pendular_yade.Bridges(**given)
+
+
+# In YADE -----------------------------------------------------------------------------------------------------------
+
+SHARES = np.array([-0.01, 0.0, 0.3, 0.6, 0.95, 0.999, 1.001, 0.5])  # of the rupture distance, one step after another
+
+
+@in_yade
+def test_forces_in_yade_are_those_of_the_table(folder):
+    """Any ratio of radii to 1000, both controls, walls of the same angle and of another one, the memory of a bridge."""
+    made, random = tables(), np.random.default_rng(SEED)
+    print(f"seed {SEED}")
+    cases, expected = [], []
+    for name, wall_table, distant in (
+        ("suction", None, False), ("suction", "walls", False), ("volume", None, False), ("suction", None, True),
+    ):  # fmt: skip
+        held = VOLUME if name == "volume" else SUCTION
+        small = random.uniform(15e-6, 30e-6, 12)
+        ratio = np.geomspace(1.0, 60.0 if name == "suction" else 4.0, 12)
+        pairs = [(r, r * x) for r, x in zip(small, ratio, strict=True)] + [(1e-6, 1e-3)] * (name == "suction")
+        pairs += [(r, math.inf) for r in small[:4]]
+        forces, gaps, energies = [], [], []
+        for r1, r2 in pairs:
+            table = made[name] if r2 < math.inf or wall_table is None else made[wall_table]
+            end = float(table.rupture_distance(held, r1, r2, TENSION))
+            gap = (SHARES[3:] if distant else SHARES) * end
+            force = np.asarray(table.force(gap, held, r1, r2, TENSION))
+            force[-1] = 0.0  # the bridge broke the step before
+            forces.append(force)
+            gaps.append(gap)
+            energies.append(float(table.energy(gap[0], held, r1, r2, TENSION)))
+        given = {"table": f"{name}.bridges", name: held, "surface_tension": TENSION, "distant": distant}
+        given |= {"wall_table": f"{wall_table}.bridges"} if wall_table else {}
+        rows = [(r1, None if r2 == math.inf else r2) for r1, r2 in pairs]
+        cases.append({"pairs": rows, "separations": np.array(gaps).T.tolist(), **given})
+        expected.append(np.array(forces).T)
+        cases.append({"pairs": rows, "separations": [np.array(gaps)[:, 0].tolist()], **given})
+        expected.append(energies)
+    (folder / "cases.json").write_text(json.dumps(cases))
+    said = simulated(folder, SCRIPT)
+    assert (folder / "found.json").is_file(), said
+    found = json.loads((folder / "found.json").read_text())
+    for (answer, wanted), (first, energies) in zip(
+        zip(found[0::2], expected[0::2], strict=True), zip(found[1::2], expected[1::2], strict=True), strict=True
+    ):
+        forces = -np.array(answer["forces"])
+        np.testing.assert_allclose(forces, wanted, rtol=2e-9, atol=0.0)
+        assert answer["bridges"] == []
+        energy = [next(row for row in first["bridges"] if number in row[:2])[5] for number in first["ids"]]
+        np.testing.assert_allclose(energy, energies, rtol=1e-9)
+        assert len(first["bridges"]) == len(first["ids"])
+
+
+@in_yade
+def test_a_pair_out_of_the_range_of_the_table_ends_the_run_with_one_line(folder):
+    case = {"pairs": [(5e-6, 5e-6)], "separations": [[0.0]], "table": "suction.bridges", "suction": 1e9}
+    (folder / "cases.json").write_text(json.dumps([case | {"surface_tension": TENSION}]))
+    said = simulated(folder, SCRIPT)
+    line = "ValueError: suction: 1e+09 with radii 5e-06 and 5e-06 and surface tension 0.0728 is out of the range"
+    assert line in said
+
+
+@in_yade
+def test_the_example_runs_as_it_says(folder):
+    shutil.copy(folder / "suction.bridges", folder / "w.bridges")
+    said = simulated(folder, EXAMPLE)
+    assert (folder / "pull.csv").is_file(), said
+    gap, on_grain, on_wall = np.loadtxt(folder / "pull.csv", delimiter=",", skiprows=1).T
+    held = {"suction": 5e3, "liquid": pl.Liquid(TENSION)}
+    for force, other in ((on_grain, 1e-3), (on_wall, math.inf)):
+        grains = pl.Pair((50e-6, other), math.radians(20))
+        exact = pl.bridge(grains, np.maximum(gap, 0.0), **held).force
+        inside = gap < 0.999 * pl.rupture(grains, **held).separation
+        np.testing.assert_allclose(force[inside], exact[inside], rtol=1e-5)
+        assert inside.sum() > 100
+        assert force[-1] == 0.0
