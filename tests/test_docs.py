@@ -36,6 +36,7 @@ ELSEWHERE = {
     "c_library.md": "test_c_library.py",
     "liggghts.md": "test_liggghts.py",
     "howto/gpu.md": "test_cuda.py",
+    "howto/javascript.md": "test_wasm.py",
 }
 OWN = [name for name in PAGES if name not in ELSEWHERE]
 GROUPS = {"lammps.md": "lammps", "howto/own_data.md": "data", "howto/mesh.md": "grains"}  # what their code needs

@@ -1,9 +1,11 @@
-"""Write ``docs/laws.md`` and its pictures: ``python -m tools.law_pages``.
+"""Write ``docs/laws.md``, a page for each law and the pictures: ``python -m tools.law_pages``.
 
-Everything on the page comes from the records of the laws and from their stored errors, which ``python -m
-tools.law_errors`` measures; the pictures are those of ``pendular compare``.
+Everything on the pages comes from the records of the laws, from the docstrings of their formulas and from their stored
+errors, which ``python -m tools.law_errors`` measures; the pictures are those of ``pendular compare``.
 """
 
+import inspect
+import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -20,10 +22,13 @@ from pendular.show.picture import save
 
 DOCS = Path(__file__).parents[1] / "docs"
 PAGE = DOCS / "laws.md"
+PAGES = DOCS / "laws"  # one for each law
 
 ANGLES = ("0", "20", "40")
 HELD = {"volume": "1pL", "suction": "20kPa"}
 SHORT = {"force": "F", "rupture": "D_c", "rupture_work": "W"}
+MATH = re.compile(r"^( *)\.\. math::(.*(?:\n(?:\1 +.*| *)$)*)", re.MULTILINE)  # and what is indented below it
+RADIUS, WATER = 50e-6, 0.0728  # of the example [m], [N/m]
 
 
 def in_words(numbers: Sequence[float]) -> str:
@@ -37,7 +42,8 @@ INTRODUCTION = f"""\
 
 Closed forms for capillary bridges, side by side with the exact solution of the Young–Laplace equation. This page is
 written by `uv run python -m tools.law_pages` from the records in `pendular.laws` and from errors that `uv run python -m
-tools.law_errors` measures; a test compares both with the code. `pendular laws NAME` prints the same for one law.
+tools.law_errors` measures; a test compares both with the code. Each law has a page, with its formula, source, errors
+and a map of them; `pendular laws NAME` prints the same.
 
 - Errors are (law − exact)/exact, of the force F at parts of the exact rupture distance D_c, of D_c itself, and of the
   work W from contact to rupture. “No bridge”: the law has none where there is one; a dash: it says nothing.
@@ -48,8 +54,9 @@ tools.law_errors` measures; a test compares both with the code. `pendular laws N
 ## All laws
 
 Largest errors between equal spheres, inside the range of the law. They are those of a sample: the controls and angles
-of the tables below, the ends of the stated range among them, and for the force contact and {in_words(FRACTIONS[1:])} of
-the rupture distance. Between two points of the sample an error may be a little larger, beyond the last it grows.
+on the page of the law, the ends of the stated range among them, and for the force contact and
+{in_words(FRACTIONS[1:])} of the rupture distance. Between two points of the sample an error may be a little
+larger, beyond the last it grows.
 
 """
 
@@ -62,6 +69,15 @@ only its own error is seen; a law of suction control knows only states that thei
 and the largest is sought, up to {pl.comparison.one_pair.UP_TO:g} of the rupture distance, and for a law of suction
 control up to that part of the rupture distance at the suction of the state.
 
+"""
+
+CONTENTS = """\
+```{toctree}
+:hidden:
+:glob:
+
+laws/*
+```
 """
 
 
@@ -87,7 +103,7 @@ def page() -> str:
     """Text of the page."""
     parts = [INTRODUCTION, *map(line, summary()), SIDE_BY_SIDE]
     parts += [f"`{command}`\n\n![{alternative(name)}](images/{name})\n\n" for name, command in pictures()]
-    parts += [section(law) for law in laws.values()]
+    parts += [CONTENTS]
     return "".join(parts).rstrip() + "\n"
 
 
@@ -114,10 +130,10 @@ def summary() -> Iterator[list[str]]:
     for law in laws.values():
         errors = [percent(float(error), signed=False) for error in measured_errors(law).of_equal_spheres.largest]
         given = ",\N{NO-BREAK SPACE}".join(SHORT[name] for name in law.gives)
-        yield [f"[`{law.name}`](#{law.name})", law.control, given, *errors, in_symbols(law.valid_text)]
+        yield [f"[`{law.name}`](laws/{law.name}.md)", law.control, given, *errors, in_symbols(law.valid_text)]
 
 
-def section(law: Law) -> str:
+def law_page(law: Law) -> str:
     """All about one law."""
     facts = {
         "Held": f"{law.control}; gives {' and '.join(law.gives).replace('_', ' ')}",
@@ -130,11 +146,79 @@ def section(law: Law) -> str:
     }
     told = [f"- {name}: {fact}\n" for name, fact in facts.items() if fact]
     told += [f"- Erratum: {in_symbols(erratum)}\n" for erratum in law.errata]
+    head = f"# {law.name}\n\n{law.title}.\n\n## Formula\n\n"
+    formulas = "".join(f"```{{math}}\n{formula}\n```\n\n" for formula in typeset(law))
+    text = f"As `pendular laws {law.name}` prints it:\n\n```text\n{law.formula}\n```\n\n{''.join(told)}\n"
+    functions = (
+        f"[What each symbol is, and the functions](../reference/law_functions.md#{law.name.replace('_', '-')}).\n\n"
+    )
+    return (head + formulas + text + functions + example(law) + "".join(errors(law))).rstrip() + "\n"
+
+
+def typeset(law: Law) -> Iterator[str]:
+    """Formulas of a law for a typesetter, from the docstrings of its functions; each once."""
+    found = (MATH.findall(inspect.getdoc(function) or "") for function in (*law.kernels.values(), *law.steps))
+    yield from dict.fromkeys(inspect.cleandoc(formula).strip() for formulas in found for _, formula in formulas)
+
+
+def example(law: Law) -> str:
+    """How to ask a law beside the exact answer, for a pair of its sample; nothing for one that gives only a work."""
+    measured = measured_errors(law).of_equal_spheres
+    known = np.flatnonzero(np.isfinite(first_errors(law, measured)))
+    if not known.size or law.gives == ("rupture_work",):
+        return ""
+    row = known[known.size // 2]
+    angle, control = float(measured.contact_angle[row]), float(measured.control_star[row])
+    held = float(f"{control * WATER / RADIUS if law.control == 'suction' else control * RADIUS**3:.3g}")
+    pair, water = pl.Pair(RADIUS, np.deg2rad(angle)), pl.Liquid(surface_tension=WATER)
+    question = {law.control: held, "liquid": water}
+    if "force" in law.gives:
+        call, unit = f"pl.bridge(pair, 0.0, {law.control}={held:g}, liquid=water", "force:.4g} N"
+        answers = [pl.bridge(pair, 0.0, **question, method=method).force for method in (law.name, "exact")]
+    else:
+        call, unit = f"pl.rupture(pair, {law.control}={held:g}, liquid=water", "separation:.4g} m"
+        answers = [pl.rupture(pair, **question, method=method).separation for method in (law.name, "exact")]
+    told = [f"{answer:.4g} {unit[-1]}" for answer in answers]
+    return f"""\
+## In Python
+
+Two spheres of {1e6 * RADIUS:g} µm and {angle:g}°, by the law and exactly:
+
+```python
+import numpy as np
+
+import pendular as pl
+
+pair = pl.Pair({1e6 * RADIUS:g}e-6, np.deg2rad({angle:g}))
+water = pl.Liquid(surface_tension={WATER:g})
+by_law = {call}, method="{law.name}")
+exact = {call})
+print(f"{{by_law.{unit}, {{exact.{unit}")  # {", ".join(told)}
+```
+
+"""
+
+
+def first_errors(law: Law, measured: MeasuredErrors) -> np.ndarray:
+    """Errors of the first quantity that a law gives, at contact; a row a pair."""
+    found = np.asarray(getattr(measured.errors, law.gives[0]))
+    return found[:, 0] if found.ndim == 2 else found
+
+
+def errors(law: Law) -> Iterator[str]:
+    """Measured errors: a map, and tables."""
+    yield "## Errors\n\n"
     measured = measured_errors(law)
-    tables = [*map(line, error_table(law, measured))] if measured.control_star.size else [f"{NOT_MEASURED}\n"]
+    if not measured.control_star.size:
+        yield f"{NOT_MEASURED}\n"
+        return
+    yield f"`pendular compare --map {law.name} --plot map.svg`\n\n"
+    yield f"![Error of {law.name} over {law.control} and contact angle](../made/map_{law.name}.svg)\n\n"
+    yield "Between equal spheres, in the signs of [all laws](../laws.md):\n\n"
+    yield from map(line, error_table(law, measured))
     if np.any(measured.smaller_over_larger < 1.0):
-        tables += ["\nLargest error over all angles:\n\n", *map(line, size_table(law, measured))]
-    return f"## {law.name}\n\n{law.title}\n\n```text\n{law.formula}\n```\n\n{''.join(told)}\n{''.join(tables)}\n"
+        yield "\nLargest error over all angles:\n\n"
+        yield from map(line, size_table(law, measured))
 
 
 def in_symbols(text: str) -> str:
@@ -185,9 +269,14 @@ def size_table(law: Law, measured: MeasuredErrors) -> Iterator[list[str]]:
 
 
 def main() -> None:
-    """Write page and pictures."""
+    """Write pages and pictures."""
     draw(DOCS / "images")
     PAGE.write_text(page(), encoding="utf-8")
+    PAGES.mkdir(exist_ok=True)
+    for old in PAGES.glob("*.md"):
+        old.unlink()
+    for law in laws.values():
+        (PAGES / f"{law.name}.md").write_text(law_page(law), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -19,6 +19,7 @@ from tools.site_pictures import PICTURES
 
 from pendular import bridge, rupture
 from pendular.ask.result import FIELDS
+from pendular.comparison.measured import measured_errors
 from pendular.front.cli import app
 from pendular.front.cli import main as pendular
 from pendular.front.options import read_question
@@ -41,6 +42,9 @@ def make(docs: Path) -> None:
     (made / "live_bridge.html").write_text(fragment(), encoding="utf-8")
     for name, draw in PICTURES.items():
         draw(made / f"{name}.svg")
+    for law in laws.values():
+        if measured_errors(law).control_star.size:
+            run(f"pendular compare --map {law.name} --plot {made / f'map_{law.name}.svg'}")
     with contextlib.chdir(docs):
         for page in sorted(docs.glob("**/*.md")):
             text = page.read_text(encoding="utf-8")
@@ -147,7 +151,7 @@ def claim_row(claim: Claim) -> str:
 def law_functions() -> Iterator[str]:
     """Formulas of all laws, from their docstrings, which their records complete."""
     for law in laws.values():
-        yield from ("", f"## {law.name}", "", f"{law.title}. [Errors and pictures](../laws.md#{law.name}).", "")
+        yield from ("", f"## {law.name}", "", f"{law.title}. [Errors and a map](../laws/{law.name}.md).", "")
         yield "```{eval-rst}"
         for function in (*law.kernels.values(), *law.steps):
             module = f"pendular.laws.{law.name}" if is_of_the_house(law.name) else function.__module__

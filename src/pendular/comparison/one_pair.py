@@ -262,6 +262,7 @@ def _why_silent(law: Law, exact: Comparison, reduced: _Reduced) -> str:
     return why_silent(law, _asked(law, exact, reduced), law.gives[0])
 
 
-def _rank(answer: LawAnswer) -> tuple[bool, bool, float]:
+def _rank(answer: LawAnswer) -> tuple[bool, bool, float, str]:
     is_unknown = bool(np.isnan(answer.largest_error))
-    return answer.converted, is_unknown, 0.0 if is_unknown else answer.largest_error
+    # two laws that are alike to rounding, as some are where the angle is zero, are ranked by their names
+    return answer.converted, is_unknown, 0.0 if is_unknown else round(answer.largest_error, 9), answer.name

@@ -34,6 +34,7 @@ _UPPER, _LOWER = (0.56, 0.33), (0.1, 0.4)  # bottom and height of the two panels
 _WIDEST = 1.1  # of the axis of separation, over the rupture distance
 _LINEAR = 0.5  # per cent, about up to which the axis of errors is linear
 _LIST, _COLUMN = (1.06, 1.16), 1.9  # beside a panel: where samples of the lines begin and end, where numbers end
+_DIGITS = 9  # to which two laws are alike, as some are where the angle is zero: names decide then
 _STEP = 0.078, 0.064  # between the rows of the two lists, over the height of their panels
 
 
@@ -159,7 +160,7 @@ def _list_forces(axes: Axes, comparison: Comparison, x: Floats) -> None:
     """Names of the lines in the order in which they end, tied to their ends, with the largest error of each."""
     drawn = [answer for answer in comparison.laws if not np.isnan(answer.largest_error)]
     ends = {answer.name: _end(axes, answer, x) for answer in drawn}
-    drawn.sort(key=lambda answer: -ends[answer.name][1])
+    drawn.sort(key=lambda answer: (-round(ends[answer.name][1], _DIGITS), answer.name))
     heights = _spread([ends[answer.name][1] for answer in drawn])
     _head(axes, "largest error", "force, to 0.9 of rupture")
     reaching = max((end[0] for end in ends.values()), default=0.0)
@@ -183,7 +184,7 @@ def _list_forces(axes: Axes, comparison: Comparison, x: Floats) -> None:
 def _list_ruptures(axes: Axes, comparison: Comparison) -> None:
     """Names of the marks in their order, with the error of each rupture distance."""
     known = [answer for answer in comparison.laws if not np.isnan(answer.rupture_error)]
-    known.sort(key=lambda answer: -answer.rupture_error)
+    known.sort(key=lambda answer: (-round(answer.rupture_error, _DIGITS), answer.name))
     _head(axes, "error", "rupture distance")
     for height, answer in zip(1.0 - _STEP[0] * np.arange(len(known)), known, strict=False):
         mark: dict[str, Any] = {
