@@ -8,8 +8,8 @@ import math
 from collections.abc import Mapping
 from typing import Literal, NamedTuple
 
+from ..ask.domain import DEEPEST_OVERLAP, LEAST_VOLUME, MOST_SUCTION, MOST_VOLUME
 from ..ask.liquid import Liquid, suction_from_humidity
-from ..ask.problem import DEEPEST_OVERLAP, MOST_SUCTION, VOLUMES
 from ..ground.check import in_range, scalar
 
 __all__ = ["NAMES", "UNITS", "Kind", "Unknown", "first_offset", "inner", "outer", "slope", "unknown_of"]
@@ -198,7 +198,7 @@ def _domain(
     if math.isfinite(smaller):
         mean = 2.0 / (1.0 / question["radius1"] + 1.0 / question["radius2"])
         if name == "volume":
-            low, high = max(low, VOLUMES[0] * mean**3), min(high, VOLUMES[1] * mean**3)
+            low, high = max(low, LEAST_VOLUME * mean**3), min(high, MOST_VOLUME * mean**3)
         if name == "suction":
             high = min(high, MOST_SUCTION * question["surface_tension"] / mean)
     return low, high

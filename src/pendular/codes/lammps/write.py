@@ -10,9 +10,9 @@ from pathlib import Path
 from string import Template
 
 from ... import __version__
-from ...ground.files import in_one_line, whole
 from ...ground.linkable import processor
 from ..c_header import table_header
+from ..folder import write_folder
 from ..library.write import static_files
 
 __all__ = ["PLUGIN", "build", "build_line", "write"]
@@ -48,13 +48,7 @@ def write(folder: Path) -> list[Path]:
         If Numba is not installed, or a file cannot be written.
     """
     contents = static_files() | {name: text.encode() for name, text in _texts().items()}
-    with in_one_line("out", folder):
-        folder.mkdir(parents=True, exist_ok=True)
-    written = [folder / name for name in contents]
-    for path in written:
-        with in_one_line("out", path), whole(path) as draft:
-            draft.write_bytes(contents[path.name])
-    return written
+    return write_folder(folder, contents)
 
 
 def build(folder: Path) -> Path:

@@ -8,8 +8,8 @@ from string import Template
 from ... import __version__
 from ...exact.state import State
 from ...ground.compile import has_compiler
-from ...ground.files import in_one_line, whole
 from ...ground.webassembly import linker, module_of
+from ..folder import write_folder
 from ..library.kernels import FAILED, FUNCTIONS
 
 __all__ = ["MODULE", "SCRIPT", "TYPES", "write"]
@@ -40,13 +40,7 @@ def write(folder: Path) -> list[Path]:
     if (found := linker()) is None:
         raise ValueError("wasm: needs wasm-ld, which links it; apt-get install lld, or brew install lld")
     contents = {MODULE: module_of(FUNCTIONS, FAILED, found), SCRIPT: _text(SCRIPT), TYPES: _text(TYPES)}
-    with in_one_line("out", folder):
-        folder.mkdir(parents=True, exist_ok=True)
-    written = [folder / name for name in contents]
-    for path in written:
-        with in_one_line("out", path), whole(path) as draft:
-            draft.write_bytes(contents[path.name])
-    return written
+    return write_folder(folder, contents)
 
 
 def _text(name: str) -> bytes:

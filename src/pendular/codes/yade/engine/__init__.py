@@ -5,9 +5,9 @@ import tempfile
 from importlib.resources import files
 from pathlib import Path
 
+from ....ground.linking import linker
 from ...c_header import table_header
 from ...folder import write_folder
-from ...library.write import linker
 
 __all__ = ["OPTIONS", "SHARED", "write"]
 
