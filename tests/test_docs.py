@@ -30,6 +30,7 @@ ELSEWHERE = {
     "laws.md": "test_law_pages.py",
     "yade.md": "test_yade.py",
     "yade_engine.md": "test_yade_engine.py",
+    "other_codes.md": "test_other_codes.py",
     "explorer.md": "test_web_page.py",
     "speed.md": "test_table.py",
     "c_header.md": "test_c_header.py",
