@@ -218,6 +218,29 @@ def test_grains_have_bridges_with_flat_walls(program, held, tmp_path):
 
 @needs_liggghts
 @pytest.mark.long
+def test_all_models_beside_it_have_the_same_bridges(program, tmp_path):
+    table = save_tables(tmp_path, "suction", "equal")[1, 1]
+    rows = [(1, (0.0, 0.0, 0.0), 50e-6), (1, (0.0, 0.0, 99.99e-6), 50e-6)]
+    for normal in ("hertz", "hooke"):
+        slip, grip = "tangential no_history ", "tangential history "
+        beside = (("", ""), (slip, ""), (grip, ""), (grip, " rolling_friction cdt"), (grip, " rolling_friction epsd2"))
+        for tangential, rolling in beside:
+            script = scene_of(rows, (2,), "suction", SUCTION) + "run 50\n"
+            fixes = "fix r1 all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.1 0.1 0.1\n"
+            fixes += "fix r2 all property/global characteristicVelocity scalar 1.0\npair_style"
+            script = script.replace("pair_style", fixes)
+            model = f"{normal} {tangential}cohesion pendular{rolling}"
+            script = script.replace("hertz tangential history cohesion pendular", model)
+            done = simulated(program, tmp_path, script)
+            assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
+            assert "unoptimized" not in done.stdout
+            z, force = frames(tmp_path)
+            expected = table.force(z[-1, 1] - z[-1, 0] - 100e-6, SUCTION, 50e-6, 50e-6, TENSION)
+            assert force[-1, 0] == pytest.approx(expected, rel=1e-9), model
+
+
+@needs_liggghts
+@pytest.mark.long
 def test_the_suction_may_change_between_two_runs(program, tmp_path):
     table = save_tables(tmp_path, "suction", "equal")[1, 1]
     rows = [(1, (0.0, 0.0, 0.0), 50e-6), (1, (0.0, 0.0, 99.99e-6), 50e-6)]

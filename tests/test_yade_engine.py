@@ -5,6 +5,7 @@ apt-get install -y --no-install-recommends yade gcc && uv run --group test pytes
 
 import json
 import math
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -167,12 +168,33 @@ def test_forces_in_yade_are_those_of_the_table(folder):
 
 
 @in_yade
-def test_a_pair_out_of_the_range_of_the_table_ends_the_run_with_one_line(folder):
-    case = {"pairs": [(5e-6, 5e-6)], "separations": [[0.0]], "table": "suction.bridges", "suction": 1e9}
-    (folder / "cases.json").write_text(json.dumps([case | {"surface_tension": TENSION}]))
+def test_what_is_held_may_change_from_step_to_step(folder):
+    table, held, gap = tables()["suction"], [2e3, 5e3, 8e3], 1e-6
+    case = {"pairs": [(50e-6, 80e-6)], "separations": [[-1e-8], [gap], [gap]], "held": held}
+    given = {"table": "suction.bridges", "suction": 1e3, "surface_tension": TENSION}
+    (folder / "cases.json").write_text(json.dumps([case | given]))
     said = simulated(folder, SCRIPT)
-    line = "ValueError: suction: 1e+09 with radii 5e-06 and 5e-06 and surface tension 0.0728 is out of the range"
-    assert line in said
+    assert (folder / "found.json").read_text(), said
+    forces = -np.ravel(json.loads((folder / "found.json").read_text())[0]["forces"])
+    expected = [
+        table.force(at, suction, 50e-6, 80e-6, TENSION) for at, suction in zip((0.0, gap, gap), held, strict=True)
+    ]
+    np.testing.assert_allclose(forces, expected, rtol=2e-9)
+
+
+@in_yade
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        ({"suction": 1e9}, "suction: 1e+09 with radii 5e-06 and 5e-06 and surface tension 0.0728 is out of the range"),
+        ({"scene": "periodic"}, "cell: bridges over the faces of a periodic cell are not there"),
+        ({"scene": "clump"}, "bodies: clumps have no bridges"),
+    ],
+)
+def test_what_has_no_bridge_ends_the_run_with_one_line(folder, change, reason):
+    case = {"pairs": 2 * [(5e-6, 5e-6)], "separations": [[0.0, 0.0]], "table": "suction.bridges", "suction": SUCTION}
+    (folder / "cases.json").write_text(json.dumps([case | {"surface_tension": TENSION} | change]))
+    assert f"ValueError: {reason}" in re.sub(r"\x1b\[[\d;]*m", "", simulated(folder, SCRIPT))
 
 
 @in_yade

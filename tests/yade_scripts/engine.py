@@ -26,8 +26,8 @@ from yade.wrapper import (
 ASIDE = 3e-3  # between two pairs
 
 
-def run(pairs, separations, **options):
-    """Forces step by step, and bridges of the last."""
+def run(pairs, separations, held=None, scene=None, **options):
+    """Forces step by step, and bridges of the last; each step may hold something else."""
     global bridges
     O.reset()
     O.materials.append(FrictMat(young=1e6, poisson=0.3, density=2500, frictionAngle=0.5))
@@ -40,6 +40,10 @@ def run(pairs, separations, **options):
         lower = None if radius2 is None else O.bodies.append(sphere((*place, low), radius2, fixed=True))
         start = low + (radius2 or 0.0) + radius1
         ids.append((lower, O.bodies.append(sphere((*place, start), radius1, fixed=True)), place, start))
+    if scene == "periodic":
+        O.periodic = True
+    if scene == "clump":
+        O.bodies.clump([ids[0][1], ids[1][1]])
     bridges = Bridges(**options)
     O.engines = [
         ForceResetter(),
@@ -49,7 +53,8 @@ def run(pairs, separations, **options):
     ]
     O.dt = 1e-12
     forces = []
-    for row in separations:
+    for step, row in enumerate(separations):
+        bridges.held = held[step] if held else bridges.held
         for (_, upper, place, start), gap in zip(ids, row):  # noqa: B905 - no word of it in this Python
             O.bodies[upper].state.pos = (*place, start + gap)
         O.step()
