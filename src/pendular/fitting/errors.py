@@ -16,7 +16,7 @@ Floats = NDArray[np.float64]
 
 VALLEY = 0.98  # correlation from which on the data hardly tell two unknowns apart
 _SINGULAR = 1e-5  # singular value of scaled columns, over the largest, that is rounding and differences
-_SECANTS, _LEAST_ROOM = 2, 0.05  # rounds of differences, and the shortest, in standard errors
+_LEAST_ROOM = 0.05  # of a difference, in standard errors
 _PART = 1e-2  # of an unknown in a direction in which nothing changes, from which on it is not fixed
 _NEAR = 2.0  # standard errors of a cosine within which an angle may be 0
 _AT_BOUND, _FAR = 1e-2, 5.0  # standard errors: at the bound of a cosine, and far beyond it
@@ -87,19 +87,16 @@ def secant_rates(
     Where the rates change within the errors, next to rupture or along a bent valley, these tell the width of the
     minimum better. The Jacobian is taken as it is where it leaves a direction open.
     """
-    for _ in range(_SECANTS):
-        size = np.sqrt(np.sum(jacobian**2, axis=0))
-        if not size.all():
-            return jacobian
-        values, vectors = np.linalg.eigh((jacobian / size).T @ (jacobian / size))
-        if values[0] < _SINGULAR**2 * values[-1]:
-            return jacobian
-        axes = math.sqrt(widened) * vectors / np.sqrt(values) / size[:, None]
-        columns = [_secant(residuals, variables, axis, low, high) for axis in axes.T]
-        if np.isnan(columns).any():
-            return jacobian
-        jacobian = np.column_stack(columns) @ np.linalg.inv(axes)
-    return jacobian
+    size = np.sqrt(np.sum(jacobian**2, axis=0))
+    if not size.all():
+        return jacobian
+    values, vectors = np.linalg.eigh((jacobian / size).T @ (jacobian / size))
+    if values[0] < _SINGULAR**2 * values[-1]:
+        return jacobian
+    axes = math.sqrt(widened) * vectors / np.sqrt(values) / size[:, None]
+    columns = np.column_stack([_secant(residuals, variables, axis, low, high) for axis in axes.T])
+    rates: Floats = jacobian if np.isnan(columns).any() else columns @ np.linalg.inv(axes)
+    return rates
 
 
 def _secant(residuals: Callable[[Floats], Floats], start: Floats, axis: Floats, low: Floats, high: Floats) -> Floats:

@@ -21,10 +21,11 @@ LOSSES: dict[Loss, float] = {
     "cauchy": 2.385,
 }  # errors that count in full
 _SEED = 20360
+_NEARLY, _SLIGHT = 3.0, 20.0  # times the least loss, and more, up to which another place may be the best on all points
 _SAME = 0.03  # difference of the variables of two places that are one
-_FEW = 20  # points on which starts are tried
-_SCAN: dict[str, Any] = {"xtol": 1e-5, "ftol": 1e-6, "gtol": 1e-6, "max_nfev": 25}
-_POLISH: dict[str, Any] = {"xtol": 1e-10, "ftol": 1e-12, "gtol": 1e-10, "max_nfev": 200}
+_FEW = 12  # points on which starts are tried
+_SCAN: dict[str, Any] = {"xtol": 1e-4, "ftol": 1e-4, "gtol": 1e-6, "max_nfev": 15}
+_POLISH: dict[str, Any] = {"xtol": 1e-9, "ftol": 1e-11, "gtol": 1e-10, "max_nfev": 200}
 _SPREAD = {"log": 1.5, "humidity": 1.5, "linear": 0.1}  # of starts, in the variable
 
 
@@ -160,9 +161,9 @@ def minimum_of(model: Model, data: Data, errors: Floats, loss: Loss, starts: int
 
 
 def _apart(tried: list[Any]) -> list[Floats]:
-    """The best places, and the next best that is another one."""
-    best = tried[0].x
-    other = [one.x for one in tried[1:] if np.max(np.abs(one.x - best)) > _SAME]
+    """The best place, and the next best, if it is another one and nearly as good."""
+    best, most = tried[0].x, _NEARLY * float(tried[0].cost) + _SLIGHT
+    other = [one.x for one in tried[1:] if np.max(np.abs(one.x - best)) > _SAME and one.cost < most]
     return [best, *other[:1]]
 
 
