@@ -83,6 +83,7 @@ def test_bounds_and_law(curve, run):
         (("--columns", "gap"), "columns: 'gap' is not two names"),
         (("--rupture", "soon"), "rupture: 'soon' does not begin with a number"),
         (("--rupture", "1um,2um,3um"), "rupture: '1um,2um,3um' is not a length"),
+        (("--jump-in", "5nm"), "jump-in: is a datum of exact bridges"),
         (("--bounds", "volume"), "bounds: 'volume' is not NAME=LOW:HIGH"),
         (("--bounds", "volume=1:2"), "bounds: '1' has no unit"),
         (("--bounds", "force-scale=a:2"), "bounds: 'a' is not a number"),

@@ -116,7 +116,7 @@ def test_rates_of_the_model_are_its_slopes(method, held):
     value["humidity"] = float(pl.humidity_from_suction(value["suction"], WATER))
     gap = np.linspace(0.1e-6, 2e-6, 15)
     force = pl.bridge(pair, gap, volume=1e-15, liquid=WATER).force
-    data = curve_of(gap, force, np.linspace(0.0, 1.0, 15), None, True)
+    data = curve_of(gap, force, np.linspace(0.0, 1.0, 15), None, None, True)
     control = control_of(*(value[name] if name == held else None for name in ("suction", "volume", "humidity")), WATER)
     free = ["contact_angle", held, "surface_tension", "radius1", "radius2", "offset", "force_zero", "force_scale"]
     free += ["base_slope", *(["evaporation_rate"] if held == "volume" else [])]
@@ -184,6 +184,30 @@ def test_a_jump_is_found_and_what_follows_is_base_line():
         fitted(rupture="jump")
     ended = fitted(rupture="end")
     assert ended.measured_rupture[0] == pytest.approx(GAP[-1] + 0.5 * step)
+
+
+def test_condensation_on_approach_is_a_datum():
+    tip = pl.Pair((1e-6, np.inf), (0.4, 0.4))
+    suction = 5e6
+    end = float(pl.rupture(tip, suction=suction, liquid=WATER).separation)
+    low, high = 0.0, end
+    for _ in range(60):  # the separation at which the bridge costs nothing, halved down to
+        middle = 0.5 * (low + high)
+        potential = pl.bridge(tip, middle, suction=suction, liquid=WATER).grand_potential
+        low, high = (middle, high) if potential < 0.0 else (low, middle)
+    assert 0.1 * end < low < end
+    gap = np.linspace(0.0, 0.3 * end, 25)
+    force = pl.bridge(tip, gap, suction=suction, liquid=WATER).force
+    noisy = force + 0.01 * force.max() * np.random.default_rng(2).normal(size=gap.size)
+    asked = {"suction": 4e6, "liquid": WATER, "free": ("contact_angle", "suction")}
+    exact = pl.fit(gap, force, tip, jump_in=(low, 0.01 * end), **asked)
+    assert exact.values == pytest.approx({"contact_angle": 0.4, "suction": suction}, rel=1e-9)
+    without = pl.fit(gap, noisy, tip, **asked)
+    found = pl.fit(gap, noisy, tip, jump_in=(low, 0.01 * end), **asked)
+    assert found.errors["suction"] < 0.8 * without.errors["suction"]
+    assert abs(found.values["suction"] - suction) < 4.0 * found.errors["suction"]
+    with pytest.raises(ValueError, match="jump_in: is a datum of exact bridges"):
+        fitted(jump_in=1e-6)
 
 
 def test_an_angle_of_nothing_has_one_bound():

@@ -49,6 +49,7 @@ def fit(
     force_error: ArrayLike | None = None,
     weights: ArrayLike | None = None,
     rupture: Any = None,
+    jump_in: Any = None,
     time: ArrayLike | None = None,
     start: Mapping[str, Any] | None = None,
     bounds: Mapping[str, Any] | None = None,
@@ -84,6 +85,9 @@ def fit(
     rupture : float, tuple or str, optional
         Where the bridge broke, on the scale of the separation, as a datum: a length, [m]; a length with its standard
         error; ``"end"`` of the curve; or the largest ``"jump"`` of the force. Points beyond it are base line.
+    jump_in : float or tuple, optional
+        Separation at which the bridge formed on approach, at a suction or humidity, as a datum: with its standard error
+        or without. It is taken for that of equilibrium, Ω = 0; a nucleus that has to wait jumps later.
     time : array_like, optional
         Of each point, [s], for an evaporation rate [m³/s]; the volume is that at time 0.
     start : mapping, optional
@@ -135,7 +139,9 @@ def fit(
     check_pair(pair)
     control = control_of(suction, volume, humidity, liquid)
     named = "humidity" if humidity is not None else control.name
-    data = curve_of(separation, force, time, rupture, isinstance(free, Sequence) and "evaporation_rate" in free)
+    data = curve_of(
+        separation, force, time, rupture, jump_in, isinstance(free, Sequence) and "evaporation_rate" in free
+    )
     errors, is_absolute = errors_given(force_error, weights, data.force.size)
     model = model_of(pair, control, liquid, free, start, bounds, method, data, named)
     found, errors = _settled(model, data, errors, is_absolute, loss, count)
@@ -154,7 +160,7 @@ def _settled(
     for _ in range(_MOST_ROUNDS):
         told = max(_size_of(model, data, found, errors, loss), _LEAST_ERROR * height)
         is_settled = abs(told - size) < _SETTLED * size
-        if loss == "linear" and data.rupture is None:  # no size moves the minimum of squares
+        if loss == "linear" and data.rupture is None and data.jump_in is None:  # no size moves the minimum of squares
             rescaled = size / told
             is_settled = True
             found = found._replace(residuals=rescaled * found.residuals, jacobian=rescaled * found.jacobian)
@@ -198,7 +204,8 @@ def _told(model: Model, data: Data, found: Minimum, errors: Floats, loss: Loss, 
     ends = found.prediction.ends
     if ends is None and model.method == "exact":
         ends = ends_at(model, data, found.variables, with_rates=False)
-    freedom = int(np.count_nonzero(data.judged)) + (data.rupture is not None) - len(model.unknowns)
+    places = (data.rupture is not None) + (data.jump_in is not None)
+    freedom = int(np.count_nonzero(data.judged)) + places - len(model.unknowns)
     size = np.array([told.errors])
     with np.errstate(invalid="ignore"):
         covariance = told.correlation * size * size.T

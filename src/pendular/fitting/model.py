@@ -25,7 +25,7 @@ from ..exact.state import State
 from ..laws import laws
 from .unknowns import Unknown, inner, outer
 
-__all__ = ["Data", "Ends", "Model", "Prediction", "ends_at", "predict", "predict_by_law"]
+__all__ = ["Data", "Ends", "Model", "Prediction", "beside", "ends_at", "predict", "predict_by_law", "problem_of"]
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -47,6 +47,7 @@ class Data(NamedTuple):
     judged: Bools  # whose force counts: next to rupture it falls infinitely fast, and the last tells that it was there
     last_time: Floats  # of the last bridge, one number
     rupture: tuple[float, float] | None  # its separation as measured, and the standard error of that
+    jump_in: tuple[float, float] | None  # where the bridge formed on approach, and the standard error of that
     steepness: float  # force that a curve is worth that goes beyond the rupture of the model, [N/m]
 
     @property
@@ -112,7 +113,8 @@ def _held_values(numbers: Mapping[str, float], control: str, time: Floats, tensi
     return np.full(time.shape, numbers["suction"] * tension / numbers["surface_tension"])
 
 
-def _problem(model: Model, numbers: Mapping[str, float], separation: Floats | None, time: Floats) -> Problem:
+def problem_of(model: Model, numbers: Mapping[str, float], separation: Floats | None, time: Floats) -> Problem:
+    """The question of some numbers, reduced; at the tension of the liquid, of which the force is a multiple."""
     pair = Pair((numbers["radius1"], numbers["radius2"]), (numbers["contact_angle1"], numbers["contact_angle2"]))
     held: Any = Control(
         "volume" if model.control == "volume" else "suction",
@@ -125,7 +127,7 @@ def predict(model: Model, data: Data, variables: Floats, *, with_rates: bool) ->
     """Force of the exact bridges, and its rates."""
     numbers = model.at(variables)
     place = data.separation + numbers["offset"]
-    problem = _problem(model, numbers, place, data.time)
+    problem = problem_of(model, numbers, place, data.time)
     states, _ = batch.answer(batch.STABLE, problem.held, problem.rows)
     reached = ~np.isnan(states[:, _LAMBDA])
     unit = 2.0 * np.pi * numbers["surface_tension"] * problem.length
@@ -207,8 +209,8 @@ def _as_measured(
 def ends_at(model: Model, data: Data, variables: Floats, *, with_rates: bool) -> Ends:
     """Rupture distance and the force there; their rates by differences, for a pitchfork has no others."""
     base = np.asarray(variables, dtype=np.float64)
-    asked = _beside(model, base)[0] if with_rates else base[None, :]
-    problems = [_problem(model, model.at(row), None, data.last_time) for row in asked]
+    asked = beside(model, base)[0] if with_rates else base[None, :]
+    problems = [problem_of(model, model.at(row), None, data.last_time) for row in asked]
     states, _ = batch.answer(batch.RUPTURE, problems[0].held, np.concatenate([problem.rows for problem in problems]))
     length = np.array([problem.length.item() for problem in problems])
     tension = np.array([model.at(row)["surface_tension"] for row in asked])
@@ -239,7 +241,7 @@ def predict_by_law(model: Model, data: Data, variables: Floats, *, with_rates: b
     """
     base = np.asarray(variables, dtype=np.float64)
     count = len(base)
-    asked, wide = _beside(model, base) if with_rates else (base[None, :], np.empty(0))
+    asked, wide = beside(model, base) if with_rates else (base[None, :], np.empty(0))
     force, is_known, ends = _force_by_law(model, data, asked)
     rates = np.zeros((data.separation.size, count))
     if with_rates:
@@ -253,7 +255,7 @@ def predict_by_law(model: Model, data: Data, variables: Floats, *, with_rates: b
     )
 
 
-def _beside(model: Model, base: Floats) -> tuple[Floats, Floats]:
+def beside(model: Model, base: Floats) -> tuple[Floats, Floats]:
     """Variables, and sets with one of them a step ahead, and a step behind; how far these are apart."""
     steps = _STEP * np.eye(base.size)
     ahead, behind = base + steps, base - steps

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..ask.liquid import Liquid
-from ..ask.pair import Pair, check_pair
+from ..ask.pair import Pair, check_pair, has_planes
 from ..ask.problem import Control
 from ..ground.check import in_range, one_of, quantity, scalar
 from ..laws import laws
@@ -27,7 +27,9 @@ _CLEAR_JUMP = 6.0  # drop of the force beyond its neighbours, over the median of
 _OF_UNIFORM = math.sqrt(12.0)
 
 
-def curve_of(separation: ArrayLike, force: ArrayLike, time: ArrayLike | None, rupture: Any, has_rate: bool) -> Data:
+def curve_of(
+    separation: ArrayLike, force: ArrayLike, time: ArrayLike | None, rupture: Any, jump_in: Any, has_rate: bool
+) -> Data:
     """The measured curve."""
     places, forces = _column("separation", separation, "m", None), _column("force", force, "N", None)
     if places.size != forces.size:
@@ -44,7 +46,8 @@ def curve_of(separation: ArrayLike, force: ArrayLike, time: ArrayLike | None, ru
         raise ValueError(f"rupture: {datum[0]:.6g} m lies before all separations" if datum else "")
     last = np.flatnonzero(~broken)[np.argmax(places[~broken])]
     judged = broken | (places < places[last])
-    return Data(places, forces, times, broken, judged, times[last : last + 1], datum, _STEEP * height / span)
+    formed = None if jump_in is None else _place_of("jump_in", jump_in, float(np.median(np.diff(np.sort(places)))))
+    return Data(places, forces, times, broken, judged, times[last : last + 1], datum, formed, _STEEP * height / span)
 
 
 def _column(name: str, values: ArrayLike, unit: str, count: int | None) -> Floats:
@@ -74,12 +77,17 @@ def _rupture_of(rupture: Any, places: Floats, forces: Floats) -> tuple[float, fl
                 f"rupture: no clear jump of the force; the largest is {drops[i]:.3g} N at {place[i]:.6g} m"
             )
         return float(0.5 * (place[i] + place[i + 1])), float(steps[i]) / _OF_UNIFORM
-    if isinstance(rupture, tuple):
-        if len(rupture) != 2:
-            raise ValueError(f"rupture: a tuple of {len(rupture)} is not (separation, standard error)")
-        error = in_range("rupture[1]", scalar("rupture[1]", rupture[1], "m"), 0.0, brackets="()", unit="m")
-        return scalar("rupture[0]", rupture[0], "m"), error
-    return scalar("rupture", rupture, "m"), float(np.median(steps)) / _OF_UNIFORM
+    return _place_of("rupture", rupture, float(np.median(steps)))
+
+
+def _place_of(name: str, value: Any, step: float) -> tuple[float, float]:
+    """A separation and its standard error, which by default is that of a place between two points."""
+    if not isinstance(value, tuple):
+        return scalar(name, value, "m"), step / _OF_UNIFORM
+    if len(value) != 2:
+        raise ValueError(f"{name}: a tuple of {len(value)} is not (separation, standard error)")
+    error = in_range(f"{name}[1]", scalar(f"{name}[1]", value[1], "m"), 0.0, brackets="()", unit="m")
+    return scalar(f"{name}[0]", value[0], "m"), error
 
 
 def errors_given(force_error: ArrayLike | None, weights: ArrayLike | None, count: int) -> tuple[Floats, bool]:
@@ -143,6 +151,8 @@ def model_of(
     model = Model(question, unknowns, control.name, liquid, method)
     if data.rupture is not None and not model.knows_rupture:
         raise ValueError(f"rupture: is no datum for the law {method!r}, which gives none at constant {control.name}")
+    if data.jump_in is not None and (control.name == "volume" or method != "exact" or has_planes(pair)):
+        raise ValueError("jump_in: is a datum of exact bridges of a sphere at constant suction, where they condense")
     return model
 
 
@@ -171,7 +181,7 @@ def _free(free: Any, named: str, control: str, data: Data) -> tuple[str, ...]:
     for both in ("contact_angle", "radius"):
         if both in names and {f"{both}1", f"{both}2"} & set(names):
             raise ValueError(f"free: {both!r} stands for that of both solids, beside that of one of them")
-    points = int(np.count_nonzero(data.judged)) + (data.rupture is not None)
+    points = int(np.count_nonzero(data.judged)) + (data.rupture is not None) + (data.jump_in is not None)
     if len(names) >= points:
         raise ValueError(f"free: {len(names)} numbers need more than {points} points beside the last")
     return names

@@ -6,6 +6,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .formation import formation_at
 from .model import Data, Ends, Model, Prediction, predict, predict_by_law
 from .unknowns import inner
 
@@ -42,7 +43,7 @@ class Minimum(NamedTuple):
 
 
 class Misses:
-    """Residuals of a model in units of their errors, those of the force first, then that of the rupture.
+    """Residuals of a model in units of their errors, those of the force first, then those of rupture and jump-in.
 
     The last one, of the search alone, tells how far the curve goes beyond the rupture of the model.
     """
@@ -64,8 +65,8 @@ class Misses:
         found = self.prediction(variables, with_rates=True)
         last = np.zeros(len(self._model.unknowns))
         if found.ends is not None and self._excess(found, variables) > 0.0:
-            last = -self._worth * self._reach_rates(found.ends)
-        return np.vstack([self._rates_of(found), last])
+            last = -self._worth * self._measured(found.ends.separation_rates)
+        return np.vstack([self._rates_of(found, variables), last])
 
     def prediction(self, variables: Floats, *, with_rates: bool) -> Prediction:
         """Force of the model, and its rates."""
@@ -78,18 +79,11 @@ class Misses:
     def told(self, variables: Floats) -> tuple[Prediction, Floats, Floats]:
         """Prediction, residuals of the data and their rates."""
         found = self.prediction(variables, with_rates=True)
-        return found, self._of(found, variables), self._rates_of(found)
+        return found, self._of(found, variables), self._rates_of(found, variables)
 
     def _reach(self, ends: Ends, variables: Floats) -> float:
         """Rupture distance on the scale of the measured separation."""
         return ends.separation - self._model.at(variables)["offset"]
-
-    def _reach_rates(self, ends: Ends) -> Floats:
-        rates = ends.separation_rates.copy()
-        for column, unknown in enumerate(self._model.unknowns):
-            if unknown.name == "offset":
-                rates[column] -= unknown.scale
-        return rates
 
     def _excess(self, found: Prediction, variables: Floats) -> float:
         if found.ends is None:
@@ -98,16 +92,31 @@ class Misses:
 
     def _of(self, found: Prediction, variables: Floats) -> Floats:
         misses = np.where(self._data.judged, (found.force - self._data.force) / self._errors, 0.0)
-        if self._data.rupture is None or found.ends is None:
-            return misses
-        place, error = self._data.rupture
-        return np.append(misses, (self._reach(found.ends, variables) - place) / error)
+        if self._data.rupture is not None and found.ends is not None:
+            place, error = self._data.rupture
+            misses = np.append(misses, (self._reach(found.ends, variables) - place) / error)
+        if self._data.jump_in is not None:
+            place, error = self._data.jump_in
+            distance, _ = formation_at(self._model, self._data, variables, with_rates=False)
+            misses = np.append(misses, (distance - self._model.at(variables)["offset"] - place) / error)
+        return misses
 
-    def _rates_of(self, found: Prediction) -> Floats:
+    def _rates_of(self, found: Prediction, variables: Floats) -> Floats:
         rates = np.where(self._data.judged[:, None], found.rates / self._errors[:, None], 0.0)
-        if self._data.rupture is None or found.ends is None:
-            return rates
-        return np.vstack([rates, self._reach_rates(found.ends) / self._data.rupture[1]])
+        if self._data.rupture is not None and found.ends is not None:
+            rates = np.vstack([rates, self._measured(found.ends.separation_rates) / self._data.rupture[1]])
+        if self._data.jump_in is not None:
+            _, of_distance = formation_at(self._model, self._data, variables, with_rates=True)
+            rates = np.vstack([rates, self._measured(of_distance) / self._data.jump_in[1]])
+        return rates
+
+    def _measured(self, rates: Floats) -> Floats:
+        """Rates of a distance on the scale of the measured separation."""
+        measured = rates.copy()
+        for column, unknown in enumerate(self._model.unknowns):
+            if unknown.name == "offset":
+                measured[column] -= unknown.scale
+        return measured
 
 
 def scores_of(loss: Loss, residuals: Floats) -> Floats:

@@ -49,6 +49,7 @@ _OPTIONS = {
     "molar_volume": "molar-volume",
     "name": "liquid",
     "force_error": "force-error",
+    "jump_in": "jump-in",
 }
 _ADVICE = {
     "make Liquid(surface_tension=...)": "give surface-tension in place of the name",

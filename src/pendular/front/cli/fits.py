@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 __all__ = ["fit"]
 
-_RUPTURES = Forms("0.3mm", "0.3mm,5um", "0.3mm,5um")
+_PLACES = Forms("0.3mm", "0.3mm,5um", "0.3mm,5um")
 _BOUNDS = {"m": "5um", "m^3": "5nL", "Pa": "20kPa", "N": "1uN", "N/m": "72.8mN/m", "m^3/s": "1pL/s"}  # well-formed
 
 
@@ -48,6 +48,9 @@ def fit(
     index: Annotated[int, typer.Option(help="Which curve of such a file.")] = 0,
     rupture: Annotated[
         str | None, _text("Where the bridge broke, as a datum: 0.3mm, 0.3mm,5um with its error, end, jump.", "LENGTH")
+    ] = None,
+    jump_in: Annotated[
+        str | None, _text("Where the bridge formed on approach, at a suction, as a datum: 5nm or 5nm,1nm.", "LENGTH")
     ] = None,
     force_error: Annotated[
         str | None, _text("Standard error of the forces: 1nN; else the residuals tell.", "FORCE")
@@ -86,7 +89,8 @@ def fit(
         "liquid": question.liquid,
         "free": names,
         "force_error": error,
-        "rupture": _rupture(rupture),
+        "rupture": rupture if rupture in ("end", "jump") else _place("rupture", rupture),
+        "jump_in": _place("jump-in", jump_in),
         "time": measured.time,
         "bounds": dict(_bound(text) for text in bounds or ()) or None,
         "loss": loss,
@@ -167,18 +171,14 @@ def _two(name: str, text: str | None, example: str) -> tuple[str, str] | None:
     return parts[0], parts[1]
 
 
-def _rupture(text: str | None) -> Any:
-    """The datum of a rupture: a word, a length, or a length and its error."""
-    if text is None or text.strip() in ("end", "jump"):
-        return text and text.strip()
-    values = read_values("rupture", text, "m", _RUPTURES)
-    if isinstance(values, float):
-        return values
-    if len(values) != 2:
-        raise ValueError(
-            f"rupture: {text!r} is not a length, or one and its error; write it like 0.3mm,5um, end or jump"
-        )
-    return values[0], values[1]
+def _place(name: str, text: str | None) -> Any:
+    """A length, or one and its standard error, where the bridge broke or formed."""
+    if text is None:
+        return None
+    values = read_values(name, text, "m", _PLACES)
+    if isinstance(values, list) and len(values) != 2:
+        raise ValueError(f"{name}: {text!r} is not a length, or one and its error; write it like {_PLACES.values}")
+    return tuple(values) if isinstance(values, list) else values
 
 
 def _bound(text: str) -> tuple[str, tuple[float, float]]:
