@@ -317,7 +317,7 @@ def test_what_cannot_be_is_refused_in_one_line(program, tmp_path):
 
 
 def test_the_lines_of_the_page_are_those_of_the_example():
-    (block,) = [each for each in code_blocks((ROOT / "docs" / "liggghts.md").read_text()) if each.language == "text"]
+    block, _ = [each for each in code_blocks((ROOT / "docs" / "liggghts.md").read_text()) if each.language == "text"]
     script = [line.split() for line in EXAMPLE.read_text().splitlines()]
     assert all(line.split() in script for line in block.code.splitlines())
 
