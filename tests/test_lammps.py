@@ -460,6 +460,23 @@ def test_liquid_of_grains_that_were_put_far_apart(plugin, tables):
     lmp.close()
 
 
+def test_the_film_has_nothing_of_a_reservoir(plugin, tables):
+    """Drained bridges leave films alone, however they end; what is shut in later counts."""
+    lmp = two_grains(plugin, tables.law("suction"), (1e-4, 1e-4), -1e-8, style="film film")
+    lmp.commands_string("set group all d_film 1e-15\nrun 0")
+    assert len(rows_of(lmp)) == 1
+    move(lmp, 1e-4)  # out of the list
+    assert len(rows_of(lmp)) == 0
+    assert film_of(lmp).tolist() == [1e-15, 1e-15]
+    move(lmp, -1e-4)
+    lmp.commands_string(f"pair_coeff * * pendular {tables.law('volume', 1e-15, 'reach 3e-5')}\nrun 0")
+    (volume,) = rows_of(lmp)[:, VOLUME]
+    assert volume == pytest.approx(float(tables["suction"].volume(0.0, HELD["suction"], 1e-4, 1e-4, TENSION)))
+    move(lmp, 1e-4)
+    np.testing.assert_allclose(film_of(lmp), 1e-15 + 0.5 * volume)
+    lmp.close()
+
+
 def test_no_bridge_where_the_liquid_is_too_little_for_the_table(plugin, tables):
     lmp = wet_row(plugin, tables, "film", 1e-15, (1e-18, 0.0), cells=(0.0, 199e-6))
     lmp.command("run 2")

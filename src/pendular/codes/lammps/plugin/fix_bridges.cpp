@@ -106,7 +106,7 @@ void FixBridges::fill()
     pool.resize(size);
     for (int k = 0; k < static_cast<int>(pair->ends.size()); ++k) {
         const Bridge &bridge = pair->bridges[k];
-        const double held = volumes_wanted ? pair->volume_of(k) : bridge.held;
+        const double held = !bridge.law->is_drained() ? bridge.held : volumes_wanted ? -pair->volume_of(k) : 0.0;
         add(pair->ends[k].i, {bridge.tag2, k, held});
         add(pair->ends[k].j, {bridge.tag1, k, held});
     }

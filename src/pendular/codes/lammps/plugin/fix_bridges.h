@@ -14,8 +14,8 @@ class PairPendular;
 /* A bridge as one of its grains knows it. */
 struct Partner {
     LAMMPS_NS::tagint tag;
-    int former; /* number of the bridge in the list before, -1 on another rank */
-    double held;
+    int former;  /* number of the bridge in the list before, -1 on another rank */
+    double held; /* its volume; minus that, or 0 within a run, if a reservoir holds its suction */
 };
 
 class FixBridges : public LAMMPS_NS::Fix {

@@ -233,6 +233,8 @@ void PairPendular::take_list()
     bridges.clear();
     ends.clear();
     watched.clear();
+    if (film.is_there())
+        film.clear(atom->nlocal + atom->nghost);
     for (int row = 0; row < list->inum; ++row)
         find_row(list->ilist[row]);
     ends.insert(ends.end(), ends_apart.begin(), ends_apart.end());
@@ -269,7 +271,12 @@ void PairPendular::find_row(int i)
    processor foresees which they are. */
 void PairPendular::take_over(int i, int j, Law &law, const Partner &partner, bool is_apart)
 {
-    const double held = law.is_drained() ? law.control() : partner.held;
+    const double held = law.is_drained() ? law.control() : std::fabs(partner.held);
+    if (film.is_there())
+        for (int end : {i, j}) {
+            film.returned[end] += std::fmax(partner.held, 0.0);
+            film.standing[end] += 1.0;
+        }
     Ends pair = {i, j, NAN, NAN};
     Bridge bridge;
     if (partner.former >= 0) {

@@ -280,9 +280,8 @@ void PairPendular::remove_broken()
 double PairPendular::volume_of(int number) const
 {
     const Bridge &bridge = bridges[number];
-    if (!bridge.law->is_drained())
-        return bridge.held;
-    return bridge.law->volume(bridge, solids_of(*bridge.law, ends[number].i, ends[number].j), separation_of(ends[number]));
+    const Ends &pair = ends[number];
+    return bridge.law->volume(bridge, solids_of(*bridge.law, pair.i, pair.j), separation_of(pair));
 }
 
 /* -- Liquid on the grains ------------------------------------------------------------------------------------------- */
@@ -354,24 +353,20 @@ void PairPendular::form_from_film()
     }
 }
 
-/* Where one of the two grains is gone, or both were put far apart, each that is left has half of the liquid. */
+/* Where one of the two grains is gone, or both were put far apart, each that is left has half of the liquid. What was
+   found in the list is in the film's numbers. */
 void PairPendular::return_lost()
 {
-    film.clear(atom->nlocal + atom->nghost);
-    for (size_t k = 0; k < ends.size(); ++k)
-        for (int i : {ends[k].i, ends[k].j}) {
-            film.returned[i] += bridges[k].law->is_drained() ? 0.0 : bridges[k].held;
-            film.standing[i] += 1.0;
-        }
     film.talk = Film::FOUND;
     comm->reverse_comm(this, film.numbers());
     double *on_grains = film_on_grains();
     for (int i = 0; i < atom->nlocal; ++i) {
         if (film.standing[i] == history->end(i) - history->begin(i))
             continue;
+        double lost = -film.returned[i];
         for (const Partner *partner = history->begin(i); partner != history->end(i); ++partner)
-            on_grains[i] += 0.5 * partner->held;
-        on_grains[i] -= 0.5 * film.returned[i];
+            lost += std::fmax(partner->held, 0.0);
+        on_grains[i] += 0.5 * lost;
     }
 }
 
