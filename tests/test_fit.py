@@ -245,6 +245,13 @@ def test_the_zero_of_the_stage_may_be_anywhere(zero):
     assert law.values["offset"] == pytest.approx(-zero, abs=0.05 * END)
 
 
+def test_a_curve_that_says_nothing_has_large_errors():
+    noise = 1e-6 * np.random.default_rng(8).normal(size=GAP.size)
+    found = pl.fit(GAP, noise, BEADS, suction=50.0, liquid=WATER, free=("suction", "contact_angle1"))
+    assert all(math.isfinite(value) for value in found.values.values())
+    assert found.errors["suction"] > 0.1 * found.values["suction"]
+
+
 def test_bounds_hold_and_are_told():
     found = fitted(free=("contact_angle", "volume"), bounds={"volume": (0.5 * VOLUME, 0.9 * VOLUME)})
     assert found.values["volume"] <= 0.9 * VOLUME

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .unknowns import Unknown, outer
+from .unknowns import Unknown, outer, slope
 
 __all__ = ["Errors", "errors_of", "secant_rates", "widening"]
 
@@ -44,7 +44,7 @@ def errors_of(unknowns: Sequence[Unknown], variables: Floats, jacobian: Floats, 
     size[silent] = 1.0
     scaled = jacobian / size
     values, vectors = np.linalg.eigh(scaled.T @ scaled)
-    flat = values < _SINGULAR**2 * values[-1]
+    flat = values <= _SINGULAR**2 * max(values[-1], 1.0)
     inverse = (vectors[:, ~flat] / values[~flat]) @ vectors[:, ~flat].T
     widened = widening(scores, gain, len(unknowns))
     deviation = np.sqrt(widened * np.diag(inverse))
@@ -119,7 +119,9 @@ def _error_of(unknown: Unknown, variable: float, error: float, step: float) -> t
     value = outer(unknown, variable)
     if not math.isfinite(error):
         return math.inf, None
-    if unknown.kind != "cosine" or variable + _NEAR * error < 1.0:
+    if unknown.kind != "cosine":
+        return abs(slope(unknown, value)) * error, None
+    if variable + _NEAR * error < 1.0:
         return max(abs(outer(unknown, variable + way) - value) for way in (-error, error)), None
     best = max(variable, variable + step) if variable > 1.0 - _AT_BOUND * error else variable  # as if none were there
     likely, sure = (math.acos(max(-1.0, _exceeded(best, error, share))) for share in (_LIKELY, _SURE))

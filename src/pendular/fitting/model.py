@@ -282,8 +282,8 @@ def _force_by_law(model: Model, data: Data, asked: Floats) -> tuple[Floats, Bool
             last = np.stack([_held_values(numbers, model.control, data.last_time, tension) for numbers in sets])
             known: dict[str, Any] = {model.control: last, "liquid": model.liquid, "method": model.method}
             distance = np.asarray(rupture(pair, **known).separation)
-            place = np.minimum(place, distance * (1.0 - _JUST_BEFORE))
-            ends = _ends_of(distance[:, 0], np.zeros(len(sets)), asked)
+            place = np.fmin(place, distance * (1.0 - _JUST_BEFORE))  # NaN where the law says nothing
+            ends = _ends_of(np.nan_to_num(distance[:, 0]), np.zeros(len(sets)), asked)
         held = np.stack([_held_values(numbers, model.control, data.time, tension) for numbers in sets])
         known = {model.control: held, "liquid": model.liquid, "method": model.method}
         answer = bridge(pair, place, **known)

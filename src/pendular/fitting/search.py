@@ -1,6 +1,7 @@
 """The least squares of a curve: residuals in units of their error, a loss, and starts from several places."""
 
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -52,13 +53,21 @@ class Misses:
         self._model, self._data, self._errors = model, data, errors
         self._worth = data.steepness / float(np.median(errors))
         self._predict: Callable[..., Prediction] = predict if model.method == "exact" else predict_by_law
+        self._known = 0  # residuals
         self.evaluations = 0
 
     def searched(self, variables: Floats) -> Floats:
-        """All residuals, for the optimiser."""
-        found = self.prediction(variables, with_rates=False)
+        """All residuals, for the optimiser; after the start NaN where the solver or the law knows no answer."""
         self.evaluations += 1
-        return np.append(self._of(found, variables), self._worth * self._excess(found, variables))
+        try:
+            found = self.prediction(variables, with_rates=False)
+            told = self._of(found, variables)
+        except ValueError:
+            if not self._known:
+                raise
+            return np.full(self._known, np.nan)
+        self._known = told.size + 1
+        return np.append(told, self._worth * self._excess(found, variables))
 
     def searched_rates(self, variables: Floats) -> Floats:
         """Their rates."""
@@ -74,7 +83,7 @@ class Misses:
 
     def residuals(self, variables: Floats) -> Floats:
         """Those of the data."""
-        return self._of(self.prediction(variables, with_rates=False), variables)
+        return self.searched(variables)[:-1]
 
     def told(self, variables: Floats) -> tuple[Prediction, Floats, Floats]:
         """Prediction, residuals of the data and their rates."""
@@ -158,9 +167,10 @@ def minimum_of(model: Model, data: Data, errors: Floats, loss: Loss, starts: int
     if starts > 1:
         few = _few_of(data)
         scan = Misses(model, few, errors[_chosen(data)])
-        tried = [
-            _searched(scan, start, low, high, loss, _SCAN) for start in _starts(model, data, first, low, high, starts)
-        ]
+        tried = [_searched(scan, first, low, high, loss, _SCAN)]
+        for start in _starts(model, data, first, low, high, starts):
+            with suppress(ValueError):  # where there is no answer
+                tried.append(_searched(scan, start, low, high, loss, _SCAN))
         likeliest, evaluations = _apart(sorted(tried, key=lambda one: float(one.cost))), scan.evaluations
     polished = [_searched(misses, place, low, high, loss, _POLISH) for place in likeliest]
     best = min(polished, key=lambda one: float(one.cost))
@@ -217,12 +227,12 @@ def limits_of(model: Model) -> tuple[Floats, Floats]:
 
 
 def _starts(model: Model, data: Data, first: Floats, low: Floats, high: Floats, count: int) -> list[Floats]:
-    """Places to start from: the guess, and others about it; angles anywhere up to a right one.
+    """Places to start from beside the guess, about it; angles anywhere up to a right one.
 
     Half of them begin in contact, for the zero of a stage may be anywhere.
     """
     random = np.random.default_rng(_SEED)
-    starts = [first]
+    starts = []
     touching = first.copy()
     for i, unknown in enumerate(model.unknowns):
         if unknown.name == "offset":

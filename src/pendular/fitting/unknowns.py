@@ -38,6 +38,7 @@ NAMES = tuple(UNITS)
 _SINGLE = ("1", "2")
 _FARTHEST = 1e3  # of a positive number from its guess, as a factor
 _WETS = 1.0 - 1e-12  # cosine of an angle of nothing
+_INSIDE = 1.01  # factor from the ends of the domain of the solver, for differences
 _STRAIGHT = math.pi * (1.0 - 1e-9)  # largest contact angle
 
 
@@ -80,7 +81,7 @@ def inner(unknown: Unknown, value: float) -> float:
 def outer(unknown: Unknown, variable: float) -> float:
     """The value of a variable."""
     if unknown.kind == "cosine":
-        return 0.0 if variable > _WETS else math.acos(max(-1.0, variable))
+        return 0.0 if variable > _WETS else min(math.acos(max(-1.0, variable)), _STRAIGHT)
     if unknown.kind == "log":
         return math.exp(variable)
     if unknown.kind == "humidity":
@@ -198,7 +199,7 @@ def _domain(
     if math.isfinite(smaller):
         mean = 2.0 / (1.0 / question["radius1"] + 1.0 / question["radius2"])
         if name == "volume":
-            low, high = max(low, LEAST_VOLUME * mean**3), min(high, MOST_VOLUME * mean**3)
+            low, high = max(low, _INSIDE * LEAST_VOLUME * mean**3), min(high, MOST_VOLUME * mean**3 / _INSIDE)
         if name == "suction":
-            high = min(high, MOST_SUCTION * question["surface_tension"] / mean)
+            high = min(high, MOST_SUCTION * question["surface_tension"] / mean / _INSIDE)
     return low, high
