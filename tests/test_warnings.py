@@ -17,6 +17,7 @@ DRY = {"humidity": 0.5, "liquid": WATER}
 FAR = {"suction": 1.0, "liquid": WATER, "method": "zhao2020"}
 NARROW = {"reduced": (20.0, 30.0), "radius_ratio": (1, 1), "tolerance": 1e-6}
 GAPS = np.array([0.0, 1e-6])
+TOO_FAR = np.array([0.0, 1e-6, 2e-6, 3e-6, 1e-3]), np.array([2e-5, 1.8e-5, 1.6e-5, 1.4e-5, 0.0])
 OVERLAPPING = pl.Packing([(0.0, 0.0, 0.0), (9e-5, 0.0, 0.0)], 5e-5)
 
 # What can warn, and a call that does: if the solver fails, beyond the Kelvin equation, and outside of a law's range.
@@ -42,6 +43,14 @@ CALLS = {
         pl.ConvergenceWarning,
     ),
     ("recommend", "failure"): (lambda: pl.recommend(reduced_suction=(10.0, 20.0)), pl.ConvergenceWarning),
+    ("fit", "too far"): (
+        lambda: pl.fit(*TOO_FAR, GRAINS, volume=1e-15, liquid=WATER, free=("volume",)),
+        pl.FitWarning,
+    ),
+    ("fit_controls", "too far"): (
+        lambda: pl.fit_controls(*TOO_FAR, GRAINS, volume=1e-15, liquid=WATER, free=("volume",)),
+        pl.FitWarning,
+    ),
     ("wet", "noise"): (
         lambda: pl.wet(OVERLAPPING, 0.0, suction=1e5, liquid=WATER, method="exact"),
         pl.PackingWarning,
@@ -51,7 +60,7 @@ CALLS = {
 SILENT = {
     *("contact_energy", "contact_forces", "humidity_from_suction", "suction_from_humidity", "load_table"),
     *("lattice_packing", "random_packing", "sieved_radii", "loosened", "centre_noise", "retention", "pendular_limit"),
-    *("wet_in_blocks", "load_state", "read_packing", "write_packing", "write_mesh", "packing_dataset"),
+    *("wet_in_blocks", "load_state", "read_packing", "write_packing", "write_mesh", "packing_dataset", "read_curve"),
     *("interpolate", "interpolate_rupture", "interpolation_error", "load_dataset", "make_dataset", "save_dataset"),
 }
 
