@@ -7,7 +7,6 @@ exact solver; the table; and the table collapsed to one pair. ``python -m benchm
 
 import math
 import statistics
-import sys
 import tempfile
 import time
 from collections.abc import Callable
@@ -19,12 +18,12 @@ from numba import njit
 from scipy.interpolate import RegularGridInterpolator
 
 import pendular as pl
+from benchmarks.sections import put
 from pendular.exact import batch as exact
 from pendular.exact.equations import SUCTION
 from pendular.ground.threads import thread_count
 from pendular.laws import willett2000, zhao2020
 
-PAGE = Path(__file__).parent.parent / "docs" / "speed.md"
 CONTACT_ANGLE = math.radians(20)
 GAMMA, MEAN_RADIUS, REDUCED_SUCTION = 0.0728, 50e-6, 100.0
 SEED, COUNT, ROUNDS = 20261122, 10_000_000, 5
@@ -255,7 +254,7 @@ def measure() -> str:
     ]
     mib = sum(array.nbytes for array in (table.grid.force, table.grid.rupture)) / 2**20
     bound = table.bound
-    return f"""# Speed of the table
+    return f"""## Tables
 
 Written by `python -m benchmarks.contacts`: {COUNT:.0e} random contacts with radii of 25 to 75 µm at a reduced
 suction of {REDUCED_SUCTION:g} (mean pair), contact angle {math.degrees(CONTACT_ANGLE):.0f}°, gaps from 0 to 1.1 of the
@@ -277,7 +276,7 @@ force is within **{bound.force:.1e}** of the force at contact up to 1 - D/D_c = 
 **{bound.rupture:.1e}**, relative, and its volume within {bound.liquid:.1e} of that at contact. They are measured anew
 for each table that is built, and stored in it.
 
-## Tables
+### Tables of other angles and controls
 
 Each with its default tolerance of the force, 1e-8 of that at contact under suction and 1e-7 at constant volume.
 Suctions are in units of γ/R̄, volumes of R̄³.
@@ -289,6 +288,4 @@ Suctions are in units of γ/R̄, volumes of R̄³.
 
 
 if __name__ == "__main__":
-    page = measure()
-    sys.stdout.write(page)
-    PAGE.write_text(page, encoding="utf-8")
+    put("benchmarks.contacts", measure())

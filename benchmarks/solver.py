@@ -21,14 +21,14 @@ from numpy.typing import NDArray
 
 import pendular as pl
 from benchmarks.contacts import FIT, paper_range, willett_range
+from benchmarks.sections import put
 from pendular.exact import batch
 from pendular.exact.equations import SUCTION, VOLUME
 from pendular.exact.state import State
-from pendular.ground.rows import by_machine_code
 
 Floats = NDArray[np.float64]
 
-SEED, COUNT, ROUNDS = 20261129, 200_000, 5
+SEED, COUNT, ROUNDS = 20261129, 50_000, 5
 RADIUS, GAMMA = 50e-6, 0.0728
 LIQUID = pl.Liquid(surface_tension=GAMMA)
 MOVED = 1e-3  # of its separation, by which each pair moves in a step
@@ -161,7 +161,7 @@ def lines_of(name: str, goals: dict[str, float]) -> list[Line]:
 
 def threads_note() -> list[str]:
     """Time by the clock on the wall on one thread and on more, and the memory that an array of bridges takes."""
-    sample = draw("volume", 1_000_000)
+    sample = draw("volume", 300_000)
     cores = numba.config.NUMBA_NUM_THREADS
     told = []
     for threads in sorted({1, min(2, cores), cores}):
@@ -201,8 +201,7 @@ GOALS = {
 def measure() -> str:
     """The page's section."""
     numba.set_num_threads(1)
-    with by_machine_code():  # as `pendular compile` makes it
-        rows = [line for name, goals in GOALS.items() for line in lines_of(name, goals)]
+    rows = [line for name, goals in GOALS.items() for line in lines_of(name, goals)]
     told = [
         f"| {row.what} | {row.cost:.0f} | {'' if row.goal is None else f'{row.goal:.0f}'} | {row.cost / row.rival:.0f} "
         f"| {row.note} |"
@@ -226,4 +225,4 @@ form under suction ({rows[-1].rival:.1f} ns).
 
 
 if __name__ == "__main__":
-    print(measure())
+    put("benchmarks.solver", measure())

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..exact.algebra import Four
+from ..exact.arc import Arc, half_length_of, is_fit, values_of
 from ..exact.meridian import measure_arc, place_after, tensor_of, turn_of
 from ..ground.compile import kernel
 from ..laws.contact_circle import Contact, cap_volume, contact_at, wetted_arc_of, wetted_area
@@ -74,27 +75,36 @@ def _no_point() -> GridPoint:
 
 
 @kernel
-def _arc_length(curvature: float, contact: Contact, ratio: float) -> float:
-    """Arc length s from the neck to a contact circle: tan(Hs/2) = HY sin ψ/(q + 1 + HY cos ψ), q = 1 + HY0."""
-    turned = curvature * contact.radius
-    tangent = contact.radius * contact.sin_slope / (ratio + 1.0 + turned * contact.cos_slope)  # tan(Hs/2)/H
-    x = curvature * tangent
-    return 2.0 * tangent * (math.atan(x) / x if abs(x) > 1e-8 else 1.0)
+def _side(curvature: float, force: float, contact: Contact) -> Side:
+    """Gap, volume and areas between the neck and a sphere: half of an arc with the neck in its middle.
+
+    Its half width is τ = (2/H) tan(Hs/2) = 2 Y sin ψ/(q + 1 + HY cos ψ), with s its length to the contact circle and q
+    = 1 + HY0.
+    """
+    ratio = math.sqrt(1.0 + 2.0 * curvature * force)
+    neck = 2.0 * force / (1.0 + ratio)
+    width = 2.0 * contact.radius * contact.sin_slope / (ratio + 1.0 + curvature * contact.radius * contact.cos_slope)
+    arc = Arc(neck, 0.0, width, curvature * width)
+    square = math.pi * width * width
+    if is_fit(arc):
+        values = values_of(arc)
+        length, liquid = 0.5 * width * values.length, 0.5 * square * width * values.volume
+        area = square * (values.across + values.axial)
+    else:
+        length, liquid, area = _measured(arc)
+    return Side(length - contact.sagitta, liquid - cap_volume(contact), area, wetted_area(contact))
 
 
 @kernel
-def _side(curvature: float, force: float, contact: Contact) -> Side:
-    """Gap, volume and areas between the neck and a sphere."""
-    ratio = math.sqrt(1.0 + 2.0 * curvature * force)
-    neck = 2.0 * force / (1.0 + ratio)
-    length = 0.5 * _arc_length(curvature, contact, ratio)
-    turn = curvature * length
-    middle = place_after(complex(neck, 0.0), length, 1.0, turn_of(turn)).zeta
+def _measured(arc: Arc) -> tuple[float, float, float]:
+    """Length, volume and area of the second half of an arc with any neck in its middle."""
+    length = 0.5 * half_length_of(arc)
+    turn = arc.eta / arc.half_width * length
+    middle = place_after(complex(arc.radius, 0.0), length, 1.0, turn_of(turn)).zeta
     z = Four(math.log(abs(middle)), math.atan2(middle.imag, middle.real), math.log(length), turn)
     along, liquid = measure_arc(z, True, True)
     across, axial = tensor_of(z)
-    volume = math.pi * liquid.value - cap_volume(contact)
-    return Side(along.value - contact.sagitta, volume, 2.0 * across + axial, wetted_area(contact))
+    return along.value, math.pi * liquid.value, 2.0 * across + axial
 
 
 @kernel
@@ -128,7 +138,8 @@ def grid_point(filling: float, neck_ratio: float, solids: Solids) -> GridPoint:
         large = contact_at(wetted_arc, solids.k2, solids.theta2)
     if not large.sin_slope > 0.0:
         return _no_point()
-    first, second = _side(curvature, force, small), _side(curvature, force, large)
+    first = _side(curvature, force, small)
+    second = first if large == small else _side(curvature, force, large)
     volume = first.volume + second.volume
     energy = (
         first.area

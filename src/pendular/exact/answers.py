@@ -25,7 +25,7 @@ Rows = NDArray[np.float64]
 STABLE, UNSTABLE, RUPTURE, LOWER_END = 0, 1, 2, 3
 FOUND, NO_BRIDGE, FAILED = 0, 1, 2
 
-_MET = 1e-13  # largest miss of the end of a branch, over the length of the arc, that is the end itself
+MET = 1e-13  # largest miss of the end of a branch, over the length of the arc, that is the end itself
 _ROUNDING = 1e-15  # of a sum of cosines
 LARGEST_MISS = 1e-10  # of the equations of an answer
 _MISS_WHERE_CLOSED = 1e-8  # where a contact circle has nearly closed, its slope is known no better
@@ -82,7 +82,7 @@ def bridge_of(walk: Walk, separation: float) -> Answer:
     elif walk.event == ARRIVED:
         status = FOUND if miss <= LARGEST_MISS else FAILED
     else:
-        status = FOUND if miss <= _MET else NO_BRIDGE
+        status = FOUND if miss <= MET else NO_BRIDGE
     return Answer(walk.stance, walk.curve, walk.event, status)
 
 

@@ -30,8 +30,9 @@ _X64, _W64 = map(constants, np.polynomial.legendre.leggauss(64))
 _X96, _W96 = map(constants, np.polynomial.legendre.leggauss(96))
 # Distance of the nearest singular point from the panel, over its half width, from which on so many nodes leave an
 # error of rounding, e = ρ^-2n with ρ = t + √(1 + t²); or one that a Newton step far from its end does not see.
-_FINE_8, _FINE_16, _FINE_24, _FINE_32, _FINE_48, _FINE_64, LEAST_ROOM = 4.95, 1.42, 0.85, 0.61, 0.395, 0.295, 0.195
+_FINE_8, _FINE_16, _FINE_24, _FINE_32, _FINE_48, _FINE_64, LEAST_ROOM = 6.1, 1.61, 1.05, 0.69, 0.445, 0.33, 0.215
 _COARSE_8, _COARSE_16, _COARSE_24 = 0.85, 0.42, 0.26
+_WIDEST_ETA = 2.6
 _SMALL = 1e-4  # ω below which tan(ω/2)/(ω/2) is a series
 
 
@@ -42,6 +43,15 @@ class Arc(NamedTuple):
     slope: float  # m, tan φ there
     half_width: float  # τ
     eta: float  # Hτ
+
+
+class Values(NamedTuple):
+    """Length X, volume V/π and orientation of an arc in units of τ."""
+
+    length: float
+    volume: float
+    across: float  # ∫Y cos²φ ds
+    axial: float  # ∫Y sin²φ ds
 
 
 NOWHERE = Arc(0.0, 0.0, 0.0, 0.0)
@@ -70,6 +80,12 @@ def room_of(arc: Arc) -> float:
     c_real, c_imag = 1.0 + h * real, h * imag
     branch = abs(real * c_real + imag * c_imag) / (c_real * c_real + c_imag * c_imag)
     return min(branch, 1.0 / abs(h)) if h != 0.0 else branch
+
+
+@kernel
+def is_fit(arc: Arc) -> bool:
+    """Whether the sums over an arc are exact to rounding."""
+    return arc.radius > 0.0 and abs(arc.eta) < _WIDEST_ETA and room_of(arc) > LEAST_ROOM
 
 
 @kernel
@@ -136,6 +152,30 @@ def _sum_all(real: float, imag: float, h: float, x: Nodes, weight: Nodes) -> Sum
         across += cosine * zr
         axial += sine * zi
     return Sums(length, by_real, by_imag, by_eta, volume, v_real, v_imag, v_eta, across, axial)
+
+
+@summing_kernel
+def _sum_values(real: float, imag: float, h: float, x: Nodes, weight: Nodes) -> Values:
+    """The values alone."""
+    length = volume = across = axial = 0.0
+    for j in range(len(x)):
+        zr, zi, ds, _v, _w, _p = point_at(real, imag, h, x[j], weight[j])
+        square = zr * zr + zi * zi
+        share = ds / math.sqrt(square)
+        cosine = share * zr
+        length += cosine
+        volume += cosine * square
+        across += cosine * zr
+        axial += share * zi * zi
+    return Values(length, volume, across, axial)
+
+
+@kernel
+def values_of(arc: Arc) -> Values:
+    """Length, volume and orientation of an arc that is fit for it, in units of τ."""
+    real, h = arc.radius / arc.half_width, 0.5 * arc.eta
+    x, weight = _nodes_for(room_of(arc), True)
+    return _sum_values(real, real * arc.slope, h, x, weight)
 
 
 @kernel

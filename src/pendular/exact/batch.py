@@ -19,6 +19,7 @@ from .answers import (
     FAILED,
     FOUND,
     LOWER_END,
+    MET,
     NO_BRIDGE,
     RUPTURE,
     STABLE,
@@ -123,7 +124,10 @@ def _summit_stored(asked: int, limit: int, task: Task, row: Rows) -> int:
         return OPEN
     if asked == RUPTURE:
         return FOUND if row[0] >= 0.0 else NO_BRIDGE
-    return NO_BRIDGE if task.separation - row[0] > _BEYOND * row[HALF_LENGTH] else OPEN
+    beyond = (task.separation - row[0]) / row[HALF_LENGTH]
+    if abs(beyond) <= MET:
+        return FOUND
+    return NO_BRIDGE if beyond > _BEYOND else OPEN
 
 
 @kernel

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from ..ground.compile import kernel
 from .algebra import Four, largest, solve4
 from .arc import (
-    LEAST_ROOM,
     Arc,
     arc_after,
     force_on,
     force_rates_on,
     half_length_of,
+    is_fit,
     meridian_of,
     room_of,
     sums_of,
@@ -37,7 +37,6 @@ Rows = NDArray[np.float64]
 FORCE_ALONE, ALL, FORCE_TO_GO_ON = 0, 1, 2  # what is stored of a bridge; the last with its meridian
 
 _MOST_STEPS = 12
-_WIDEST_ETA = 2.6
 _LEAST_OF_TWO_EXTREMA = 1.99  # η below which an arc makes less than half a turn
 _WIDENED = (1.0, 1.35, 1.82, 2.46)  # of the contact circles of the guess under suction, next to a fold
 _COARSE_STEP = 1e-3  # from which on all nodes are used
@@ -100,12 +99,6 @@ def kept(arc: Arc, held: Held) -> Arc:
     if held.control == SUCTION:
         return Arc(arc.radius, arc.slope, arc.half_width, held.value * arc.half_width)
     return arc
-
-
-@kernel
-def is_fit(arc: Arc) -> bool:
-    """Whether the sums over an arc are exact to rounding."""
-    return arc.radius > 0.0 and abs(arc.eta) < _WIDEST_ETA and room_of(arc) > LEAST_ROOM
 
 
 @kernel

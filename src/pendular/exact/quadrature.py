@@ -57,7 +57,7 @@ class Sums(NamedTuple):
     volume_by_eta: float
 
 
-@summing_kernel
+@kernel
 def point_at(real: float, imag: float, h: float, v: float, dv: float) -> Node:
     """The point at v with its share dv of the parameter, h = η/2."""
     w = h * v

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..ground.compile import kernel
-from .algebra import Four, dot, largest, minors, normal, scaled, solve4, unit_vector
-from .arc import Arc, arc_after
-from .direct import all_stored, extrema_of, is_fit, kept, newton_on, start_of, system_at_arc
+from .algebra import Four, dot, largest, minors, moved, normal, scaled, solve4, unit_vector
+from .arc import Arc, arc_after, is_fit
+from .direct import all_stored, extrema_of, kept, newton_on, start_of, system_at_arc
 from .equations import SUCTION, VOLUME, Held, curvature_rates, volume_row
 from .follow import BRANCH_ENDS
 from .guess import rupture_guess
@@ -30,7 +30,7 @@ _MOST_STARTS, _MOST_STEPS = 4, 10
 _NEARLY = 0.05  # last Newton step to where the leaps begin
 _MOST_LEAPS = 30
 _FIRST_LEAP, _LONGEST_LEAP, _SHORTEST_LEAP = 0.1, 0.25, 1e-7
-_FINE_LEAP, _LAST_TO_FOLD, _LAST_TO_PITCHFORK = 1e-2, 3e-10, 1e-12
+_LAST_TO_FOLD, _LAST_TO_PITCHFORK = 3e-10, 1e-12
 _LEAST_SECANT = 1e-5  # leap below which the rate is that of the one before: rounding, and ways back, would spoil it
 _LAST_WAY = 1e-11  # back to the curve, from where the end is seen
 _LARGEST_WAY = 0.5  # back to the curve, over the leap
@@ -50,8 +50,8 @@ class Look(NamedTuple):
 
 
 @kernel
-def _look(arc: Arc, held: Held, symmetric: bool, hand: float, fine: bool) -> Look:
-    system = system_at_arc(arc, held, fine)
+def _look(arc: Arc, held: Held, symmetric: bool, hand: float) -> Look:
+    system = system_at_arc(arc, held, True)
     first = Row(arc.slope, Four(0.0, 1.0, 0.0, 0.0)) if symmetric else system.contact1
     if held.control == SUCTION:
         rates, target = curvature_rates(Four(0.0, 0.0, 0.0, arc.eta)), 0.0
@@ -93,12 +93,13 @@ def summit_of(held: Held, symmetric: bool, stops_at: int) -> tuple[Arc, int]:
     base, separation, is_near = _beside(held)
     event, start = FOLD, base
     hand, along, value, margin = 1.0, Four(0.0, 0.0, 0.0, 0.0), math.nan, 1.0
-    step, rate, last, fine, leap = 0.0, 0.0, _LAST_TO_FOLD, False, 0
+    bend = Four(0.0, 0.0, 0.0, 0.0)  # rate of the tangent along the curve
+    step, rate, last, leap = 0.0, 0.0, _LAST_TO_FOLD, 0
     while leap < _MOST_LEAPS:
-        there = kept(arc_after(base, along, step), held)
+        there = kept(arc_after(base, moved(along, 0.5 * step, bend), step), held)
         if not (is_near and is_fit(there)):
             break
-        ahead = _look(there, held, symmetric, hand, fine)
+        ahead = _look(there, held, symmetric, hand)
         leap += 1
         at_ahead = ahead.slope if event == FOLD else ahead.margin
         if leap == 1:
@@ -125,18 +126,18 @@ def summit_of(held: Held, symmetric: bool, stops_at: int) -> tuple[Arc, int]:
         sign = 1.0 if event == FOLD else math.copysign(1.0, margin)
         if abs(step) > _LEAST_SECANT:
             rate = (at_ahead - value) / step
+            bend = scaled(1.0 / step, moved(ahead.tangent, -1.0, along))
         onward = -at_ahead / rate if rate * sign < 0.0 else math.copysign(_LONGEST_LEAP, at_ahead * sign)
         base, along, value = kept(arc_after(there, ahead.way, 1.0), held), ahead.tangent, at_ahead
-        if fine and abs(onward) < last and largest(ahead.way) < _LAST_WAY:
+        if abs(onward) < last and largest(ahead.way) < _LAST_WAY:
             end = kept(arc_after(base, along, onward), held)
             if event == PITCHFORK or ahead.margin * margin > 0.0:
                 return end, event if ahead.separation > separation else LOST
             if stops_at != BRANCH_ENDS:
                 break
             event, last, base, along = PITCHFORK, _LAST_TO_PITCHFORK, start, Four(0.0, 0.0, 0.0, 0.0)
-            step, fine, leap = 0.0, False, 0
+            bend, step, leap = Four(0.0, 0.0, 0.0, 0.0), 0.0, 0
             continue
-        fine = abs(onward) < _FINE_LEAP
         step = max(-_LONGEST_LEAP, min(_LONGEST_LEAP, onward))
     return base, LOST
 

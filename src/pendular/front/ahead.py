@@ -59,7 +59,8 @@ def compile_ahead(told: Callable[[Made], None] = _tell_nobody) -> Iterator[str]:
 def _ask_bridges() -> None:
     bridge(_PAIR, _GAPS, suction=20e3, liquid=_LIQUID)
     bridge(_PAIR, 1e-6, volume=1e-15, liquid=_LIQUID).profile()
-    rupture(_PAIR, suction=20e3, liquid=_LIQUID)
+    rupture(_PAIR, suction=np.array([20e3, 30e3]), liquid=_LIQUID)
+    rupture(Pair(50e-6, 0.7), volume=1e-16, liquid=_LIQUID, limit="fold")  # past a pitchfork
     bridge(_PAIR, _GAPS, suction=20e3, liquid=_LIQUID, branch="unstable")  # by the whole solver
 
 
