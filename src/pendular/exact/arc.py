@@ -30,7 +30,7 @@ _X64, _W64 = map(constants, np.polynomial.legendre.leggauss(64))
 _X96, _W96 = map(constants, np.polynomial.legendre.leggauss(96))
 # Distance of the nearest singular point from the panel, over its half width, from which on so many nodes leave an
 # error of rounding, e = ρ^-2n with ρ = t + √(1 + t²); or one that a Newton step far from its end does not see.
-_FINE_8, _FINE_16, _FINE_24, _FINE_32, _FINE_48, _FINE_64, LEAST_ROOM = 6.1, 1.61, 1.05, 0.69, 0.445, 0.33, 0.215
+_FINE_8, _FINE_16, _FINE_24, _FINE_32, _FINE_48, _FINE_64, LEAST_ROOM = 6.1, 1.61, 1.0, 0.665, 0.435, 0.325, 0.213
 _COARSE_8, _COARSE_16, _COARSE_24 = 0.85, 0.42, 0.26
 _WIDEST_ETA = 2.6
 _SMALL = 1e-4  # ω below which tan(ω/2)/(ω/2) is a series
