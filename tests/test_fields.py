@@ -135,3 +135,14 @@ def test_bridges_near_by_have_to_fit():
         pl.bridge(pair, [0.0, 0.1], **alone, near=3)
     with pytest.raises(ValueError, match=r"^near: these bridges do not know their meridians"):
         pl.bridge(pair, [0.0, 0.1], **alone, near=pl.bridge(pair, [0.0, 0.1], **alone, fields=("force",)))
+
+
+def test_fields_alone_in_humid_air():
+    water, pair = pl.Liquid.water(), pl.Pair(1e-4, 0.3)
+    gap = np.array([0.0, 1e-9])
+    whole = pl.bridge(pair, gap, humidity=0.9, liquid=water)
+    part = pl.bridge(pair, gap, humidity=0.9, liquid=water, fields=("volume",))
+    np.testing.assert_array_equal(part.volume, whole.volume)
+    assert np.isnan(part.force).all()
+    again = pl.bridge(pair, gap, humidity=0.9, liquid=water, fields=("force",), near=whole)
+    np.testing.assert_allclose(again.force, whole.force, rtol=1e-10)

@@ -12,7 +12,7 @@ from .by_angle import bridge_by_angle
 from .by_dataset import bridge_by_dataset, rupture_by_dataset
 from .by_law import bridge_by_law, rupture_by_law
 from .by_table import bridge_by_table, rupture_by_table
-from .fields import checked_fields, narrowed
+from .fields import TO_GO_ON, checked_fields, narrowed
 from .liquid import HUMIDITY_UNCERTAINTY, Liquid, humidity_from_suction, suction_from_humidity, warn_kelvin
 from .many import many_bridges
 from .pair import Pair, PerSolid, check_pair, refuse_planes
@@ -91,7 +91,7 @@ def bridge(
         not hold the bridge. Where a method has no answer the force is NaN and ``exists`` False.
     fields : sequence of str, optional
         Names of the fields that are wanted; all others are NaN, or False, but for those that tell of existence and
-        stability. For arrays, what is not wanted is not computed: ``("force",)`` costs about two thirds.
+        stability. For arrays, what is not wanted is not computed: ``("force",)`` costs about four fifths.
     near : Bridge, optional
         Bridges of the same arrays a little before, as the step before of a simulation answered them, with all fields or
         near others: those that stood are looked for from where they were. It changes no answer, but its cost.
@@ -160,6 +160,10 @@ def bridge(
     gap = quantity("separation", separation, "m")
     if near is not None:
         instance("near", near, Bridge)
+    if humidity is not None and wanted is not None:  # whose judgement takes the force
+        whole = bridge(pair, gap, suction=control.value, liquid=liquid, branch=branch, limit=limit, near=near)
+        _judge_humidity(pair, separation, control, liquid, branch, whole)
+        return narrowed(whole, wanted if near is None else (*wanted, *TO_GO_ON))
     many = many_bridges(pair, control, liquid, gap, limit, wanted, near) if branch == "stable" else None
     answer = many or narrowed(solve(reduce(pair, control, liquid, gap), branch, limit), wanted)
     if humidity is not None:

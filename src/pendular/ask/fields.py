@@ -235,5 +235,6 @@ def narrowed(bridge: Bridge, fields: tuple[str, ...] | None) -> Bridge:
         old = np.asarray(values[name])
         empty = np.broadcast_to(np.bool_(False) if name == "neck_inside" else np.nan, old.shape)
         values[name] = empty if old.ndim else empty.item()
-    values["_meridian"] = np.full(np.shape(values["_meridian"]), np.nan)
+    if "_meridian" not in fields:
+        values["_meridian"] = np.full(np.shape(values["_meridian"]), np.nan)
     return Bridge(**values)
