@@ -184,7 +184,7 @@ def measure(repeats: int = 1) -> str:
 Processor time of LAMMPS, medians of {ROUNDS} rounds in turns, one thread; YADE as its own clock has it, which counts
 the time of other programs too. Table to {table.tolerance:g} of the force at contact, suction {SUCTION:g} Pa, contact
 angle {math.degrees(CONTACT_ANGLE):g}°; the packings are at rest at first, then sheared. The bridges are what a step
-takes longer with them than with their neighbour list alone, with all that they do: their lists, restarts, energies.
+takes longer with them than with their neighbour list alone, with all that they do: lists, and energies twice a round.
 
 | | ms a step | ns a bridge | share of the contacts alone |
 |---|---:|---:|---:|
