@@ -170,13 +170,14 @@ def example(law: Law) -> str:
     row = known[known.size // 2]
     angle, control = float(measured.contact_angle[row]), float(measured.control_star[row])
     held = float(f"{control * WATER / RADIUS if law.control == 'suction' else control * RADIUS**3:.3g}")
+    asked = re.sub(r"e\+?0*", "e", f"{held:g}").replace("e-0", "e-")
     pair, water = pl.Pair(RADIUS, np.deg2rad(angle)), pl.Liquid(surface_tension=WATER)
     question = {law.control: held, "liquid": water}
     if "force" in law.gives:
-        call, unit = f"pl.bridge(pair, 0.0, {law.control}={held:g}, liquid=water", "force:.4g} N"
+        call, unit = f"pl.bridge(pair, 0.0, {law.control}={asked}, liquid=water", "force:.4g} N"
         answers = [pl.bridge(pair, 0.0, **question, method=method).force for method in (law.name, "exact")]
     else:
-        call, unit = f"pl.rupture(pair, {law.control}={held:g}, liquid=water", "separation:.4g} m"
+        call, unit = f"pl.rupture(pair, {law.control}={asked}, liquid=water", "separation:.4g} m"
         answers = [pl.rupture(pair, **question, method=method).separation for method in (law.name, "exact")]
     told = [f"{answer:.4g} {unit[-1]}" for answer in answers]
     return f"""\
