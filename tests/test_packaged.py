@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pendular.front import ahead
-from pendular.ground import linking, native, packaged, rows, stamp
+from pendular.ground import linking, native, objects, packaged, rows, stamp
 
 COMPILER = pytest.mark.needs("numba")
 LINKER = pytest.mark.skipif(linking.linker() is None, reason="no C compiler to link a library with")
@@ -47,11 +47,11 @@ def arguments():
 
 def package(function):
     """Put machine code of an entry into the package."""
-    with native.for_the_package() as objects:
+    with native.for_the_package() as made:
         native.build(function, arguments())
     native._loaded.clear()
-    packaged.write(packaged.FILE, objects.values())
-    return objects
+    packaged.write(packaged.FILE, made.values())
+    return made
 
 
 @COMPILER
@@ -78,6 +78,17 @@ def test_what_is_made_for_this_processor_comes_before_that_of_the_package(scaled
     assert native.load(scaled, arguments()) is own
     native._loaded.clear()
     assert native.load_own(scaled, arguments()) is not None
+
+
+@COMPILER
+def test_a_kernel_may_be_compiled_under_several_names(scaled):
+    codes = [objects.object_of(scaled, arguments(), name, objects.HOST) for name in ("one", "other", "one")]
+    for name, code in zip(("one", "other", "one"), codes, strict=True):
+        given = arguments()
+        native._linked(name, code)(*given)
+        assert given[2].tolist() == [2.0, 16.0, 54.0]
+    with pytest.raises(RuntimeError, match=r"^none is not in its file$"):
+        native._linked("none", codes[0])
 
 
 @COMPILER

@@ -171,5 +171,5 @@ def test_plain_python_and_machine_code_agree(control, monkeypatch):
     states, _ = batch.answer(batch.STABLE, held, question)
     with rows.by_machine_code():
         compiled = rates_of_force(held, question, states)
-    monkeypatch.setattr(rows, "has_compiler", lambda: False)
+    monkeypatch.setattr(rows, "_machine_code", lambda *_: None)
     assert rates_of_force(held, question, states) == pytest.approx(compiled, rel=1e-11)

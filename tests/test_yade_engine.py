@@ -65,7 +65,7 @@ def test_the_command_tells_what_it_wrote(run, tmp_path, monkeypatch):
     assert code == 0
     names = ["pendular_yade.py", "pendular_yade.c", "pendular_table.h"]
     assert [Path(line.split(":")[0]).name for line in told.splitlines()][:3] == names
-    monkeypatch.setattr("pendular.codes.library.write.shutil.which", lambda name: None)
+    monkeypatch.setattr("pendular.ground.linking.shutil.which", lambda name: None)
     code, told, _ = run("export", "yade-engine", "--out", tmp_path / "bare")
     assert told.splitlines()[3] == f"{SHARED}: not written, for there is no C compiler (cc, gcc or clang) to make it"
     monkeypatch.setattr(pendular_yade, "_HERE", tmp_path / "bare")

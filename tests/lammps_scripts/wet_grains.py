@@ -6,6 +6,7 @@ writes to ANSWER what there is at the end, in the order of the ids.
 """
 
 import sys
+import traceback
 from pathlib import Path
 
 from mpi4py import MPI  # isort: skip  # before LAMMPS, which then finds the library
@@ -134,4 +135,8 @@ def main(answer, plugin, newton, steps, seed, style, coefficients, film):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    try:
+        main(*sys.argv[1:])
+    except Exception:
+        traceback.print_exc()
+        MPI.COMM_WORLD.Abort(1)  # else the other ranks would wait for this one

@@ -15,6 +15,7 @@ __all__ = ["Native", "caller", "types_of"]
 Native = Callable[..., None]
 
 _ANSWERS = (ctypes.c_void_p, ctypes.c_void_p)
+_NAMES = (bool, int, float)  # of numbers: those of NumPy are as these
 _NUMBERS = {bool: ctypes.c_int8, float: ctypes.c_double, Integral: ctypes.c_int64}
 
 
@@ -25,7 +26,7 @@ def types_of(arguments: Any) -> str:
         return f"{arguments.dtype.str}{arguments.ndim}{layout}{'' if arguments.flags.writeable else 'r'}"
     if isinstance(arguments, tuple):
         return f"{type(arguments).__name__}({','.join(map(types_of, arguments))})"
-    return type(arguments).__name__
+    return next((name.__name__ for name in _NAMES if isinstance(arguments, name)), type(arguments).__name__)
 
 
 def caller(address: int, name: str) -> Native:

@@ -179,7 +179,10 @@ def _linked(name: str, content: bytes) -> Native:
     engine = _engine()
     engine.add_object_file(llvm.ObjectFileRef.from_data(content))
     engine.finalize_object()
-    return caller(engine.get_function_address(name), name)
+    address = engine.get_function_address(name)
+    if address == 0:
+        raise RuntimeError(f"{name} is not in its file")
+    return caller(address, name)
 
 
 @contextmanager

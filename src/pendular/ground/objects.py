@@ -69,11 +69,14 @@ def context_of_files(processor: str = HOST) -> Any:
             pass
 
         def hide_all_but(self, names: dict[str, str]) -> None:
-            """Hide all but a few functions, which get another name."""
+            """Hide all but a few functions, which get another name; they may have had one before."""
+            now = self.__dict__.setdefault("names_now", {})
+            wanted = {now.get(name, name): new for name, new in names.items()}
+            now.update(names)
             module = self._final_module
             for value in (*module.functions, *module.global_variables):
-                if value.name in names:
-                    value.name = names[value.name]
+                if value.name in wanted:
+                    value.name = wanted[value.name]
                 elif not value.is_declaration:
                     value.linkage = "internal"
 
