@@ -219,8 +219,11 @@ print(*islice(compile_ahead(), 2))
         "bridge_range",
         "curve_range",
         "end_range",
+        "fields_range",
         "meridian_range",
+        "restored_range",
         "stable_range",
+        "summit_range",
     ]
 
 

@@ -256,7 +256,7 @@ def test_the_library_says_what_is_wrong(desk):
     for field, text, words in (
         ("Suction", "5 km", "suction: '5 km' is not a quantity in Pa; write it like 20kPa"),
         ("Separation", "-30um", "separation: -3e-05 m is not > -2.5e-05"),
-        ("Contact angle 1", "190", "contact-angle: 190 deg is not in [0, 180)"),
+        ("Contact angle 1", "190", "contact-angle: '190' is not in [0, 180) degrees"),
         ("Liquid", "wather", "liquid: 'wather' is not a known liquid"),
         ("Temperature", "500 °C", "temperature: 773.15 K is not in [273.15, 647.096)"),
         ("Radius 2", "-1um", "radius2: -1e-06 m is not > 0"),
