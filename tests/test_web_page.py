@@ -259,7 +259,7 @@ def test_the_library_says_what_is_wrong(desk):
         ("Contact angle 1", "190", "contact-angle: '190' is not in [0, 180) degrees"),
         ("Liquid", "wather", "liquid: 'wather' is not a known liquid"),
         ("Temperature", "500 °C", "temperature: 773.15 K is not in [273.15, 647.096)"),
-        ("Radius 2", "-1um", "radius2: -1e-06 m is not > 0"),
+        ("Radius 2", "-1um", "radius2: '-1um' is not > 0"),
     ):
         desk.write(field, text)
         playwright.expect(desk.page.get_by_role("alert").filter(has_text=words)).to_be_visible()
