@@ -25,3 +25,16 @@ def is_in_domain(control: int, separation: float, held: float, radius1: float, r
         cube = mean * mean * mean
         return is_near and LEAST_VOLUME * cube <= held <= MOST_VOLUME * cube
     return is_near and control == SUCTION and abs(held) * mean <= MOST_SUCTION * tension
+
+
+@kernel
+def length_unit(control: int, held: float, radius1: float, radius2: float) -> float:
+    """Unit of length of a question: the smaller radius; between two planes the cube root of the volume."""
+    small = min(radius1, radius2)
+    return small if small < math.inf or control == SUCTION else held ** (1.0 / 3.0)
+
+
+@kernel
+def reduced(control: int, held: float, unit: float, tension: float) -> float:
+    """What is held, in a unit of length: V/π, or H."""
+    return held / (unit * unit * unit) / math.pi if control == VOLUME else held * unit / tension

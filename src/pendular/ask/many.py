@@ -14,9 +14,8 @@ from ..exact import batch
 from ..exact.batch import FOUND, OPEN
 from ..exact.equations import SUCTION, VOLUME
 from ..exact.state import State, state_in
-from ..ground.compile import kernel
 from ..ground.rows import Own, element, entry, over_rows
-from .domain import is_in_domain
+from .domain import is_in_domain, length_unit, reduced
 from .fields import TO_GO_ON, Room, asks_for_force_alone, bridge_of, fill, leave_empty, restore_rows, room_for
 from .liquid import Liquid
 from .pair import Pair
@@ -28,13 +27,6 @@ Statuses = NDArray[np.int8]
 
 _CHUNK = 4096  # bridges that one thread takes at a time: some milliseconds
 _BAD = 3  # status of a row that is no question
-
-
-@kernel
-def _length_unit(control: int, held: float, radius1: float, radius2: float) -> float:
-    """Unit of length of a question: the smaller radius; between two planes the cube root of the volume."""
-    small = min(radius1, radius2)
-    return small if small < math.inf or control == SUCTION else held ** (1.0 / 3.0)
 
 
 @entry(plain_cost=5e-4, patience=4.0)
@@ -73,15 +65,13 @@ def fields_range(
         if not is_in_domain(control, gap, held, first, second, tension):
             statuses[i] = _BAD
             continue
-        unit = _length_unit(control, held, first, second)
-        reduced = held / (unit * unit * unit) / math.pi if control == VOLUME else held * unit / tension
+        unit = length_unit(control, held, first, second)
         solids = batch.Solid(unit / first, one, cosine1, sine1), batch.Solid(unit / second, other, cosine2, sine2)
         begin = batch.NOWHERE
         if near.shape[1] > 0 and near[0, i] > 0.0:
             begin = batch.arc_through(near[0, i] / unit, near[1, i], near[2, i] / unit, near[3, i] * unit / tension)
-        status = batch.straight_status(
-            wanted, begin, gap / unit, batch.Held(solids[0], solids[1], control, reduced), row
-        )
+        kept = batch.Held(solids[0], solids[1], control, reduced(control, held, unit, tension))
+        status = batch.straight_status(wanted, begin, gap / unit, kept, row)
         statuses[i] = status
         if status == FOUND:
             fill(room, i, state_in(row), control, gap, held, unit, tension, cosine1, cosine2)

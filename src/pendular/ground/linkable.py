@@ -10,7 +10,18 @@ from typing import Any, NamedTuple
 from . import native
 from .objects import context_of_files, unlinked
 
-__all__ = ["Array", "Constant", "Count", "Function", "Integer", "Real", "linkable", "llvm_text", "processor"]
+__all__ = [
+    "Array",
+    "Constant",
+    "Count",
+    "Function",
+    "Integer",
+    "Real",
+    "kept_or_made",
+    "linkable",
+    "llvm_text",
+    "processor",
+]
 
 
 class Constant(NamedTuple):
@@ -51,8 +62,14 @@ class Function(NamedTuple):
 
 def linkable(functions: Sequence[Function], failed: int) -> bytes:
     """Object file with functions of C for this processor; a kernel that broke off, against all reason, has failed."""
-    kernel, types = functions[0].kernel, f"{failed} {[(f.name, f.kernel.__name__, *f.arguments) for f in functions]}"
-    return native.kept(kernel, types) or native.made(kernel, types, lambda: _compiled(functions, failed))
+    return kept_or_made(functions, failed, "", lambda: _compiled(functions, failed))
+
+
+def kept_or_made(functions: Sequence[Function], failed: int, target: str, compile: Callable[[], bytes]) -> bytes:
+    """What was made of functions for a target, made if it is not there."""
+    kernel = functions[0].kernel
+    types = f"{target} {failed} {[(f.name, f.kernel.__name__, *f.arguments) for f in functions]}"
+    return native.kept(kernel, types) or native.made(kernel, types, compile)
 
 
 def processor() -> str:

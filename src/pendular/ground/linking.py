@@ -4,10 +4,10 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-__all__ = ["linker", "shared_library"]
+__all__ = ["linker", "run", "shared_library"]
 
 _COMPILERS = ("cc", "gcc", "clang")
 
@@ -46,8 +46,19 @@ def shared_library(compiler: str, name: str, objects: Iterable[bytes], source: s
         naming = "install_name" if sys.platform == "darwin" else "soname"
         options = ["-O2", "-fPIC", "-shared", f"-Wl,-{naming},{name}"]
         command = [compiler, *options, "-o", str(made), str(text), *map(str, parts), "-lm"]
-        done = subprocess.run(command, check=False, capture_output=True, text=True)
-        if done.returncode != 0:
-            reason = (done.stderr.strip().splitlines() or ["no reason told"])[-1]
-            raise ValueError(f"library: {compiler} cannot link {name}: {reason}")
+        run(command, f"library: {compiler} cannot link {name}")
         return made.read_bytes()
+
+
+def run(command: Sequence[str | Path], failure: str, folder: str | None = None) -> None:
+    """Run a compiler or linker, in a folder.
+
+    Raises
+    ------
+    ValueError
+        If it fails: in one line, with what it said last.
+    """
+    done = subprocess.run(command, cwd=folder, check=False, capture_output=True, text=True)
+    if done.returncode != 0:
+        reason = (done.stderr.strip().splitlines() or ["no reason told"])[-1]
+        raise ValueError(f"{failure}: {reason}")

@@ -20,7 +20,7 @@ from .calling import Native, caller, types_of
 from .compile import has_compiler
 from .files import alone, whole
 from .objects import HOST, object_of
-from .stamp import stamp_of
+from .stamp import name_of, stamp_of
 
 __all__ = ["build", "folder", "for_the_package", "kept", "load", "load_own", "made", "notices"]
 
@@ -29,7 +29,8 @@ notices: list[Callable[[], AbstractContextManager[Any]]] = []  # what tells whoe
 _LOCKS = "building.lock"  # in the folder of machine code
 _PATIENCE = 300.0  # with another process that compiles the same, [s]
 _SEAL = hashlib.sha256().digest_size
-_loaded: dict[tuple[Callable[..., None], str], Native] = {}  # by kernel and types
+_loaded: dict[tuple[Callable[..., None], str], Native] = {}  # what was made here, by kernel and types
+_packaged: dict[tuple[Callable[..., None], str], Native] = {}  # what the package has
 _building = threading.Lock()  # threads of a process compile one after the other in any case
 _for_the_package: list[dict[str, bytes]] = []  # what is made for it, by name, while none is made for this processor
 
@@ -40,16 +41,19 @@ def load(function: Callable[..., None], arguments: tuple[Any, ...]) -> Native | 
     What was made for this processor comes before what the package has for all of its kind.
     """
     kind = function, types_of(arguments)
-    if (own := load_own(function, arguments)) is not None:
-        return own
+    if (known := _loaded.get(kind) or _packaged.get(kind) or _own(kind)) is not None:
+        return known
     if (code := packaged.load(*kind)) is not None:
-        _loaded[kind] = code
+        _packaged[kind] = code
     return code
 
 
 def load_own(function: Callable[..., None], arguments: tuple[Any, ...]) -> Native | None:
     """Machine code of a kernel that was made here, None if there is no whole file."""
-    kind = function, types_of(arguments)
+    return _own((function, types_of(arguments)))
+
+
+def _own(kind: tuple[Callable[..., None], str]) -> Native | None:
     if kind not in _loaded:
         content = _kept_here(*kind)
         if content is None:
@@ -127,10 +131,8 @@ def _path_of(function: Callable[..., Any], types: str) -> Path:
 
 
 def _name_of(function: Callable[..., Any], types: str) -> str:
-    """Name of the machine code of a kernel for some types: its own, and the hash of all that decides on it."""
-    stamp = stamp_of(Path(function.__code__.co_filename))
-    key = hashlib.sha256(f"{stamp} {_processor()} {function.__module__} {types}".encode()).hexdigest()
-    return f"{function.__name__}_{key[:24]}"
+    """Name of the machine code of a kernel for some types on this processor."""
+    return name_of(function, stamp_of(Path(function.__code__.co_filename)), _processor(), function.__module__, types)
 
 
 @cache

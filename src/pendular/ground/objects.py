@@ -62,6 +62,10 @@ def context_of_files(processor: str = HOST) -> Any:
     from numba.core.registry import cpu_target
 
     class Library(AOTCodeLibrary):
+        def __init__(self, *given: Any) -> None:
+            super().__init__(*given)
+            self._names_now: dict[str, str] = {}  # of functions that were named before
+
         def _optimize_functions(self, module: Any) -> None:
             module.data_layout = self._codegen._data_layout
 
@@ -70,9 +74,8 @@ def context_of_files(processor: str = HOST) -> Any:
 
         def hide_all_but(self, names: dict[str, str]) -> None:
             """Hide all but a few functions, which get another name; they may have had one before."""
-            now = self.__dict__.setdefault("names_now", {})
-            wanted = {now.get(name, name): new for name, new in names.items()}
-            now.update(names)
+            wanted = {self._names_now.get(name, name): new for name, new in names.items()}
+            self._names_now |= names
             module = self._final_module
             for value in (*module.functions, *module.global_variables):
                 if value.name in wanted:

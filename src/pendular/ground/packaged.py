@@ -6,7 +6,6 @@ another source is never used.
 """
 
 import ctypes
-import hashlib
 import platform
 from collections.abc import Callable, Iterable
 from contextlib import suppress
@@ -14,9 +13,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from . import stamp
 from .calling import Native, caller
 from .linking import linker, shared_library
-from .stamp import source_stamp
 
 __all__ = ["FILE", "PROCESSOR", "load", "name_of", "write"]
 
@@ -39,10 +38,9 @@ int pendular_runs_here(void)
 
 
 def name_of(function: Callable[..., Any], types: str) -> str:
-    """Name of the machine code of a kernel for some types: its own, and the hash of all that decides on it."""
-    stamp = source_stamp(Path(function.__code__.co_filename))
-    key = hashlib.sha256(f"{stamp} {PROCESSOR} {function.__module__} {types}".encode()).hexdigest()
-    return f"{function.__name__}_{key[:24]}"
+    """Name of the machine code of a kernel for some types in the package."""
+    source = stamp.source_stamp(Path(function.__code__.co_filename))
+    return stamp.name_of(function, source, PROCESSOR, function.__module__, types)
 
 
 def load(function: Callable[..., Any], types: str) -> Native | None:

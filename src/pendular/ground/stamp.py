@@ -3,14 +3,15 @@
 import hashlib
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from functools import cache
 from importlib.metadata import version
 from importlib.util import resolve_name
 from pathlib import Path
+from typing import Any
 
-__all__ = ["source_stamp", "stamp_of"]
+__all__ = ["name_of", "source_stamp", "stamp_of"]
 
 _HOME = Path(__file__).parent.parent
 _PACKAGE = _HOME.name
@@ -25,6 +26,12 @@ def stamp_of(file: Path) -> str:
     """
     tools = f"{sys.version} {version('numba')} {version('llvmlite')}"
     return hashlib.sha256(f"{tools} {source_stamp(file)}".encode()).hexdigest()
+
+
+def name_of(function: Callable[..., Any], *facts: str) -> str:
+    """Name of the machine code of a kernel: its own, and the hash of all that decides on it."""
+    key = hashlib.sha256(" ".join(facts).encode()).hexdigest()
+    return f"{function.__name__}_{key[:24]}"
 
 
 @cache

@@ -6,13 +6,12 @@ from its host, as JavaScript has them, and nothing else; `__heap_base` tells fro
 
 import re
 import shutil
-import subprocess
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-from . import native
-from .linkable import Function, llvm_text
+from .linkable import Function, kept_or_made, llvm_text
+from .linking import run
 
 __all__ = ["linker", "module_of"]
 
@@ -35,9 +34,7 @@ def module_of(functions: Sequence[Function], failed: int, linker: str) -> bytes:
     ValueError
         If it cannot be linked.
     """
-    types = f"{_TRIPLE} {failed} {[(f.name, f.kernel.__name__, *f.arguments) for f in functions]}"
-    kernel = functions[0].kernel
-    code = native.kept(kernel, types) or native.made(kernel, types, lambda: _object_of(llvm_text(functions, failed)))
+    code = kept_or_made(functions, failed, _TRIPLE, lambda: _object_of(llvm_text(functions, failed)))
     return _linked(code, [function.name for function in functions], linker)
 
 
@@ -63,8 +60,5 @@ def _linked(code: bytes, names: Sequence[str], linker: str) -> bytes:
         part.write_bytes(code)
         exports = [f"--export={name}" for name in (*names, "__heap_base")]
         options = ["--no-entry", "--allow-undefined", "--strip-all", "-z", f"stack-size={_STACK}", *exports]
-        done = subprocess.run([linker, *options, "-o", made, part], check=False, capture_output=True, text=True)
-        if done.returncode != 0:
-            reason = (done.stderr.strip().splitlines() or ["no reason told"])[-1]
-            raise ValueError(f"wasm: {linker} cannot link the module: {reason}")
+        run([linker, *options, "-o", made, part], f"wasm: {linker} cannot link the module")
         return made.read_bytes()

@@ -5,12 +5,11 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from ...ask.domain import is_in_domain
+from ...ask.domain import is_in_domain, length_unit, reduced
 from ...ask.problem import LIKELY_BETWEEN_PLANES
 from ...exact.algebra import Four
 from ...exact.answers import stored_from
 from ...exact.batch import FAILED, FOUND, NO_BRIDGE, RUPTURE, STABLE, answer_one
-from ...exact.equations import VOLUME
 from ...exact.follow import BRANCH_ENDS
 from ...exact.morph import Task
 from ...exact.state import State
@@ -66,11 +65,9 @@ def _answered(
     if not _is_fit(control, separation, held, pair):
         state[:] = math.nan
         return BAD_INPUT
-    length = min(pair[0], pair[1])
-    if length == math.inf:
-        length = held ** (1.0 / 3.0)
-    reduced = held / (length * length * length) / math.pi if control == VOLUME else held * length / pair[4]
-    task = Task(separation / length, reduced, length / pair[0], pair[2], length / pair[1], pair[3], control)
+    length = length_unit(control, held, pair[0], pair[1])
+    value = reduced(control, held, length, pair[4])
+    task = Task(separation / length, value, length / pair[0], pair[2], length / pair[1], pair[3], control)
     status = FAILED
     if warm and state[_MIDDLE] > 0.0 and state[_LENGTH] > 0.0:
         turn = state[_CURVATURE] * state[_LENGTH]

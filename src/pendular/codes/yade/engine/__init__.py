@@ -1,11 +1,10 @@
 """Exact bridges in YADE from Python: a module for its interpreter, and the loop over neighbours in C."""
 
-import subprocess
 import tempfile
 from importlib.resources import files
 from pathlib import Path
 
-from ....ground.linking import linker
+from ....ground.linking import linker, run
 from ...c_header import table_header
 from ...folder import write_folder
 
@@ -46,8 +45,5 @@ def _compiled(compiler: str, contents: dict[str, bytes]) -> bytes:
     with tempfile.TemporaryDirectory() as name:
         write_folder(Path(name), contents)
         command = [compiler, *OPTIONS, "-o", SHARED, _LOOP, "-lm"]
-        done = subprocess.run(command, cwd=name, check=False, capture_output=True, text=True)
-        if done.returncode != 0:
-            reason = (done.stderr.strip().splitlines() or ["no reason told"])[-1]
-            raise ValueError(f"engine: {compiler} cannot make {SHARED}: {reason}")
+        run(command, f"engine: {compiler} cannot make {SHARED}", name)
         return (Path(name) / SHARED).read_bytes()
