@@ -41,7 +41,7 @@ ELSEWHERE = {
 }
 OWN = [name for name in PAGES if name not in ELSEWHERE]
 GROUPS = {"lammps.md": "lammps", "howto/own_data.md": "data", "howto/mesh.md": "grains"}  # what their code needs
-LONG = ("lammps.md", "howto/packings.md", "theory/paper.md")
+LONG = ("lammps.md", "howto/packings.md")
 
 
 def marks_of(name: str) -> list[pytest.MarkDecorator]:

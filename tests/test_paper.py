@@ -2,15 +2,17 @@
 
 import json
 import re
+from functools import partial
 from html import escape
 
 import numpy as np
 import pytest
+from studies.paper import sample
+from studies.paper.claims import measure
+from studies.paper.figures import FIGURES
+from studies.paper.report import json_text, write_report
 
-from pendular.paper import sample
-from pendular.paper.claims import measure
-from pendular.paper.figures import FIGURES
-from pendular.paper.report import json_text, write_report
+from pendular.front.cli import data
 
 DENSITY = 0.1  # of the full sample
 
@@ -183,3 +185,20 @@ def test_the_page_and_the_json_tell_every_claim(folder):
 
 def test_a_report_can_be_made_again_to_the_last_digit(folder):
     assert json_text(measure(DENSITY)) == (folder / "claims.json").read_text(encoding="utf-8")
+
+
+def test_the_command_writes_it_in_a_copy_of_the_source(run, tmp_path, monkeypatch):
+    monkeypatch.setattr("studies.paper.__main__.write_report", partial(write_report, density=0.05))
+    status, told, _ = run("paper", "--out", tmp_path)
+    assert (status, told) == (0, f"14 files; open {tmp_path / 'index.html'}\n")
+    assert len(list(tmp_path.iterdir())) == 14
+
+
+def test_the_command_of_the_package_alone_says_where_it_stands(run, tmp_path, monkeypatch):
+    monkeypatch.setattr(
+        data, "__file__", str(tmp_path / "lib" / "site-packages" / "pendular" / "front" / "cli" / "data.py")
+    )
+    status, _, told = run("paper", "--out", tmp_path)
+    assert (status, told.count("\n")) == (2, 1)
+    assert "python -m studies.paper" in told
+    assert not list(tmp_path.iterdir())

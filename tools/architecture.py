@@ -24,9 +24,19 @@ def names(layer: str) -> list[str]:
     return re.split(r" [|:] ", layer)
 
 
+def full_name(contract: dict[str, object], name: str) -> str:
+    """Name of a layer's module by which it is imported."""
+    return ".".join([*contract.get("containers", ()), name])
+
+
+def path_of(module: str) -> Path:
+    """Folder of a package, or a module without its suffix."""
+    return (ROOT if module.startswith("studies") else ROOT / "src").joinpath(*module.split("."))
+
+
 def purpose(module: str) -> str:
     """First line of the docstring of a module or package."""
-    path = ROOT / "src" / Path(*module.split("."))
+    path = path_of(module)
     source = path.with_suffix(".py") if path.with_suffix(".py").is_file() else path / "__init__.py"
     if not source.is_file():
         return ""
@@ -57,10 +67,9 @@ def part() -> Iterator[str]:
     for contract in contracts():
         yield from (f"## {contract['name']}", "")
         if contract["type"] == "layers":
-            (container,) = contract["containers"]
             yield from ("```text", *diagram(contract["layers"]), "```", "", "| module | what it is |", "| --- | --- |")
             for name in (name for layer in contract["layers"] for name in names(layer)):
-                yield f"| `{name}` | {purpose(f'{container}.{name}')} |"
+                yield f"| `{name}` | {purpose(full_name(contract, name))} |"
         else:
             importers, imported = (
                 ", ".join(f"`{n}`" for n in contract[f"{kind}_modules"]) for kind in ("source", "forbidden")

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import typer
+from studies.paper.claims import Claim, measure
 from tools.code_blocks import code_blocks, commands
 from tools.live_bridge import fragment
 from tools.site_pictures import PICTURES
@@ -26,7 +27,6 @@ from pendular.front.options import read_question
 from pendular.ground.units import read
 from pendular.laws import laws
 from pendular.laws._registry import is_of_the_house
-from pendular.paper.claims import Claim, measure
 from pendular.show.picture import save
 
 ROOT = Path(__file__).parents[1]

@@ -4,7 +4,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..ask.liquid import Liquid, suction_from_humidity
+from pendular import Liquid, suction_from_humidity
+
 from . import sample
 from .claim import Claim, error, signed, worst
 

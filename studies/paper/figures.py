@@ -11,7 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from ..ground.colours import FAINT, GRAIN, HAIR, INK
+from pendular.ground.colours import FAINT, GRAIN, HAIR, INK
+
 from . import sample, style
 from .geometry import geometry
 from .style import FORCE, PART, PRODUCT, SEPARATION, SUCTION

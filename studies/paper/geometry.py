@@ -5,7 +5,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc
 
-from ..ground.colours import ACCENT, GRAIN, GRAIN_EDGE, HAIR, INK, LIQUID
+from pendular.ground.colours import ACCENT, GRAIN, GRAIN_EDGE, HAIR, INK, LIQUID
+
 from . import sample
 from .style import COLOURS
 

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from ..ground.colours import ACCENT, FAINT, HAIR, INK
+from pendular.ground.colours import ACCENT, FAINT, HAIR, INK
 
 Floats = NDArray[np.float64]
 Place = Literal["best", "lower left", "lower right", "center right", "upper right"]

@@ -5,7 +5,8 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from ..laws import laws
+from pendular.laws import laws
+
 from . import sample
 from .claim import Claim, error, is_within, per_angle, per_cent, power, signed, tell, worst
 

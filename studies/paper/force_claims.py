@@ -6,7 +6,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ..laws import laws
+from pendular.laws import laws
+
 from . import sample
 from .claim import Claim, error, is_within, per_angle, power, tell, worst
 

@@ -5,7 +5,8 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from ..laws import toroidal2020
+from pendular.laws import toroidal2020
+
 from . import sample
 from .claim import Claim, error, is_within, per_angle, signed, tell, worst
 

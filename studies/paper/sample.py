@@ -9,12 +9,9 @@ from typing import Any, Literal, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..ask.face import bridge, curve, rupture
-from ..ask.liquid import Liquid
-from ..ask.pair import Pair
-from ..ask.result import Bridge
-from ..laws import force_star, rupture_star, toroidal2020, zhao2020
-from ..laws._registry import house_laws
+from pendular import Bridge, Liquid, Pair, bridge, curve, rupture
+from pendular.laws import force_star, rupture_star, toroidal2020, zhao2020
+from pendular.laws._registry import house_laws
 
 Floats = NDArray[np.float64]
 
@@ -145,7 +142,7 @@ def torus_line(necks: Floats, degrees: float) -> Floats:
 
 def beta(kind: Literal["series", "torus", "exact"], degrees: ArrayLike) -> Floats:
     """Coefficient of Eq. (35): of Eq. (36), of the torus without expansion, and the exact one."""
-    from ..laws.asymptotic_rupture import beta_exact
+    from pendular.laws.asymptotic_rupture import beta_exact
 
     kernels = {"series": toroidal2020.beta_series, "torus": toroidal2020.beta_torus, "exact": beta_exact}
     return _each(kernels[kind], np.deg2rad(degrees))

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING
 
 import matplotlib as mpl
 
-from ..ground.files import in_one_line, whole
+from pendular.ground.files import in_one_line, whole
+
 from .claims import Claim, measure
 from .figures import FIGURES, Drawing
 

@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..ask.result import Bridge
+from pendular import Bridge
+
 from . import sample
 from .claim import Claim
 
