@@ -4,6 +4,7 @@ A session brings what it needs into the project's own environment and removes no
 once. Those that need another interpreter, or an environment that lacks something, make one of their own.
 """
 
+import tempfile
 import tomllib
 from pathlib import Path
 
@@ -18,6 +19,8 @@ PROJECT = tomllib.loads(Path("pyproject.toml").read_text(encoding="utf-8"))
 VERSIONS = ("3.11", "3.12", "3.13", "3.14")
 ON_ALL_CORES = ("-n", "auto")
 WITHOUT_NUMBA = [line for line in PROJECT["project"]["dependencies"] if not line.startswith("numba")]
+BRIDGE = ("bridge", "--radius", "50um", "--contact-angle", "20", "--suction", "20kPa", "--separation", "1um", "--json")
+LARGEST_WHEEL = 1.5  # MB
 
 # Kernels, laws and first answers: what has to be the same where Numba cannot be had, at a thousandth of the speed.
 PLAIN = (
@@ -111,10 +114,34 @@ def wheel(session: nox.Session) -> None:
     made = Path(session.create_tmp())
     session.run("uv", "build", "--quiet", "--out-dir", made, env={"PENDULAR_MACHINE_CODE": "1"}, external=True)
     (file,) = made.glob("*.whl")
-    session.log(f"{file.name}: {file.stat().st_size / 1e6:.2f} MB")
+    see_size(session, file)
     session.install(*WITHOUT_NUMBA, *PROJECT["dependency-groups"]["test"])
     session.install("--no-deps", "--reinstall", str(file))
     session.run("pytest", *ON_ALL_CORES, "-m", "not long", *(session.posargs or MACHINE))
+
+
+@nox.session(venv_backend="uv")
+def packages(session: nox.Session) -> None:
+    """Source and wheel as they are published: checked as an index does, then each in an empty environment."""
+    with tempfile.TemporaryDirectory() as folder:
+        made = Path(folder)
+        session.run("uv", "build", "--quiet", "--out-dir", made, external=True)
+        (source,), (file,) = made.glob("*.tar.gz"), made.glob("*.whl")
+        see_size(session, file)
+        session.run("uv", "tool", "run", "twine", "check", "--strict", source, file, external=True)
+        session.run("uv", "tool", "run", "cffconvert", "--validate", "-i", "CITATION.cff", external=True)
+        for package in (source, file):
+            session.run("uv", "venv", "--quiet", "--clear", session.virtualenv.location, external=True)
+            session.install(package)
+            session.run("pendular", *BRIDGE)
+
+
+def see_size(session: nox.Session, wheel: Path) -> None:
+    """Refuse a wheel of more than 1.5 MB."""
+    size = wheel.stat().st_size / 1e6
+    session.log(f"{wheel.name}: {size:.2f} MB")
+    if size > LARGEST_WHEEL:
+        session.error(f"{wheel.name} is larger than {LARGEST_WHEEL} MB")
 
 
 @nox.session(venv_backend="uv", python=VERSIONS)
