@@ -79,12 +79,12 @@ Statuses = NDArray[np.int8]
 OPEN = -1  # status of a row that a part of the solver leaves to the whole of it
 
 _BEYOND = 1e-9  # over the length of the arc, of a separation that is beyond rupture for certain
-_MOST_NODES = 1200
+MOST_NODES = 1200
 _CHUNK = 1024  # bridges that one thread takes at a time: some milliseconds, against which its start is nothing
 
 
 def _room_for_nodes() -> Rows:
-    return np.empty((_MOST_NODES, 4))
+    return np.empty((MOST_NODES, 4))
 
 
 def _room_for_found() -> Rows:

@@ -4,11 +4,15 @@ Each kernel is compiled as in `native`. Around it goes a function with a name an
 as the kernel wants them; all else is hidden in the file. A kernel raises nothing, so that no error has to be told.
 """
 
+import hashlib
+import math
 from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from . import native
 from .objects import context_of_files, unlinked
+from .stamp import source_stamp
 
 __all__ = [
     "Array",
@@ -53,11 +57,12 @@ Argument = Constant | Integer | Real | Count | Array
 
 
 class Function(NamedTuple):
-    """A function of C: a kernel that returns a status, and where its arguments come from, in their order."""
+    """A function of C: a kernel that returns a status or a number, and where its arguments come from in their order."""
 
     name: str
-    kernel: Callable[..., int]
+    kernel: Callable[..., int | float]
     arguments: Sequence[Argument]
+    returns: Integer | Real = Integer()
 
 
 def linkable(functions: Sequence[Function], failed: int) -> bytes:
@@ -68,8 +73,15 @@ def linkable(functions: Sequence[Function], failed: int) -> bytes:
 def kept_or_made(functions: Sequence[Function], failed: int, target: str, compile: Callable[[], bytes]) -> bytes:
     """What was made of functions for a target, made if it is not there."""
     kernel = functions[0].kernel
-    types = f"{target} {failed} {[(f.name, f.kernel.__name__, *f.arguments) for f in functions]}"
+    types = f"{target} {failed} {[(f.name, f.kernel.__name__, *f.arguments, f.returns) for f in functions]}"
+    types += f" {_source_of(functions)}"
     return native.kept(kernel, types) or native.made(kernel, types, compile)
+
+
+def _source_of(functions: Sequence[Function]) -> str:
+    """Hash of all source that the kernels can take anything from."""
+    files = sorted({function.kernel.__code__.co_filename for function in functions})
+    return hashlib.sha256(" ".join(source_stamp(Path(file)) for file in files).encode()).hexdigest()
 
 
 def processor() -> str:
@@ -122,13 +134,13 @@ def _type_of(argument: Argument) -> Any:
 
 
 def _write(context: Any, module: Any, function: Function, inner: Any, failed: int) -> None:
-    """Write the function of C that calls a kernel."""
+    """Write the function of C that calls a kernel; a number is NaN where the kernel broke off."""
     from llvmlite import ir
     from numba.core.cgutils import get_or_insert_function
 
-    status = ir.IntType(32)
+    returned = _c_type_of(function.returns)
     asked = [_c_type_of(argument) for argument in function.arguments if not isinstance(argument, Constant)]
-    outer = ir.Function(module, ir.FunctionType(status, asked), function.name)
+    outer = ir.Function(module, ir.FunctionType(returned, asked), function.name)
     builder = ir.IRBuilder(outer.append_basic_block())
     given, count, values = iter(outer.args), ir.Constant(ir.IntType(64), 1), []
     for argument in function.arguments:
@@ -139,8 +151,10 @@ def _write(context: Any, module: Any, function: Function, inner: Any, failed: in
     kernel_type = context.call_conv.get_function_type(inner.restype, inner.argtypes)
     kernel = get_or_insert_function(module, kernel_type, inner.llvm_func_name)
     ended, answer = context.call_conv.call_function(builder, kernel, inner.restype, inner.argtypes, values)
-    answer = builder.trunc(answer, status)
-    builder.ret(builder.select(ended.is_error, ir.Constant(status, failed), answer))
+    if isinstance(function.returns, Integer):
+        answer = builder.trunc(answer, returned)
+    otherwise = failed if isinstance(function.returns, Integer) else math.nan
+    builder.ret(builder.select(ended.is_error, ir.Constant(returned, otherwise), answer))
 
 
 def _c_type_of(argument: Argument) -> Any:

@@ -16,7 +16,22 @@ from ...exact.state import State
 from ...ground.compile import kernel
 from ...ground.linkable import Array, Constant, Count, Function, Integer, Real
 
-__all__ = ["BAD_INPUT", "FAILED", "FOUND", "FUNCTIONS", "NO_BRIDGE", "PAIR"]
+__all__ = [
+    "BAD_INPUT",
+    "FAILED",
+    "FOUND",
+    "FUNCTIONS",
+    "NO_BRIDGE",
+    "PAIR",
+    "PAIRS",
+    "STATES",
+    "Floats",
+    "end_of_branch",
+    "in_units",
+    "is_fit",
+    "likely_separation",
+    "task_of",
+]
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int32]
@@ -34,7 +49,7 @@ _CURVATURE, _FORCE, _VOLUME, _STIFFNESS, _MIDDLE, _SLOPE, _LENGTH = (
 
 
 @kernel
-def _is_fit(control: int, separation: float, held: float, pair: Floats) -> bool:
+def is_fit(control: int, separation: float, held: float, pair: Floats) -> bool:
     """Whether a question is one: what `ask.problem` refuses is none, nor is what is not a number."""
     radius1, radius2, tension = pair[0], pair[1], pair[4]
     is_pair = radius1 > 0.0 and radius2 > 0.0 and 0.0 < tension < math.inf
@@ -43,7 +58,7 @@ def _is_fit(control: int, separation: float, held: float, pair: Floats) -> bool:
 
 
 @kernel
-def _in_units(state: Floats, length: float, tension: float) -> None:
+def in_units(state: Floats, length: float, tension: float) -> None:
     """Turn a reduced state into one in the units of the question."""
     area = length * length
     for i in _LENGTHS:
@@ -57,17 +72,23 @@ def _in_units(state: Floats, length: float, tension: float) -> None:
 
 
 @kernel
+def task_of(control: int, separation: float, held: float, length: float, pair: Floats) -> Task:
+    """The question in a unit of length."""
+    value = reduced(control, held, length, pair[4])
+    return Task(separation / length, value, length / pair[0], pair[2], length / pair[1], pair[3], control)
+
+
+@kernel
 def _answered(
     asked: int, warm: int, control: int, separation: float, held: float, pairs: Floats, states: Floats, i: int
 ) -> int:
     """Answer the question of a row; with ``warm`` from the bridge that its state holds, if that leads there."""
     pair, state = pairs[i], states[i]
-    if not _is_fit(control, separation, held, pair):
+    if not is_fit(control, separation, held, pair):
         state[:] = math.nan
         return BAD_INPUT
     length = length_unit(control, held, pair[0], pair[1])
-    value = reduced(control, held, length, pair[4])
-    task = Task(separation / length, value, length / pair[0], pair[2], length / pair[1], pair[3], control)
+    task = task_of(control, separation, held, length, pair)
     status = FAILED
     if warm and state[_MIDDLE] > 0.0 and state[_LENGTH] > 0.0:
         turn = state[_CURVATURE] * state[_LENGTH]
@@ -76,15 +97,21 @@ def _answered(
     if status != FOUND:
         status = answer_one(asked, BRANCH_ENDS, task, states[:0], state)  # of which no walk is recorded
     if status == FOUND:
-        _in_units(state, length, pair[4])
+        in_units(state, length, pair[4])
     return status
 
 
 @kernel
-def _rupture_of(control: int, held: float, pairs: Floats, states: Floats, i: int) -> int:
-    is_apart = min(pairs[i, 0], pairs[i, 1]) == math.inf and held > 0.0  # two planes, never in touch
-    likely = LIKELY_BETWEEN_PLANES * held ** (1.0 / 3.0) if is_apart else 0.0
-    return _answered(RUPTURE, 0, control, likely, held, pairs, states, i)
+def likely_separation(held: float, pair: Floats) -> float:
+    """A separation at which a bridge is likely: contact, but two planes are never in touch."""
+    is_apart = min(pair[0], pair[1]) == math.inf and held > 0.0
+    return LIKELY_BETWEEN_PLANES * held ** (1.0 / 3.0) if is_apart else 0.0
+
+
+@kernel
+def end_of_branch(asked: int, control: int, held: float, pairs: Floats, states: Floats, i: int) -> int:
+    """Answer the question of a row for an end of its stable branch; the status."""
+    return _answered(asked, 0, control, likely_separation(held, pairs[i]), held, pairs, states, i)
 
 
 @kernel
@@ -96,7 +123,7 @@ def bridge(warm: int, control: int, separation: float, held: float, pairs: Float
 @kernel
 def rupture(control: int, held: float, pairs: Floats, states: Floats) -> int:
     """The bridge at the end of its stable branch; the status."""
-    return _rupture_of(control, held, pairs, states, 0)
+    return end_of_branch(RUPTURE, control, held, pairs, states, 0)
 
 
 @kernel
@@ -117,21 +144,21 @@ def ruptures(control: int, held: Floats, pairs: Floats, states: Floats, statuses
     """Answer rows as `rupture` does; the largest status."""
     worst = FOUND
     for i in range(statuses.size):
-        status = _rupture_of(control, float(held[i]), pairs, states, i)
+        status = end_of_branch(RUPTURE, control, float(held[i]), pairs, states, i)
         statuses[i] = status
         worst = max(worst, status)
     return worst
 
 
-_PAIRS, _STATES, _STATUSES = Array(len(PAIR)), Array(len(State._fields)), Array(kind="int32")
-_ONE = (Integer(), Real(), Real(), _PAIRS, _STATES)
-_ROWS = (Integer(), Count(), Array(), Array(), _PAIRS, _STATES, _STATUSES)
+PAIRS, STATES, _STATUSES = Array(len(PAIR)), Array(len(State._fields)), Array(kind="int32")
+_ONE = (Integer(), Real(), Real(), PAIRS, STATES)
+_ROWS = (Integer(), Count(), Array(), Array(), PAIRS, STATES, _STATUSES)
 
 FUNCTIONS = (
     Function("pendular_bridge", bridge, (Constant(0), *_ONE)),
     Function("pendular_bridge_near", bridge, (Constant(1), *_ONE)),
-    Function("pendular_rupture", rupture, (Integer(), Real(), _PAIRS, _STATES)),
+    Function("pendular_rupture", rupture, (Integer(), Real(), PAIRS, STATES)),
     Function("pendular_bridges", bridges, (Constant(0), *_ROWS)),
     Function("pendular_bridges_near", bridges, (Constant(1), *_ROWS)),
-    Function("pendular_ruptures", ruptures, (Integer(), Count(), Array(), _PAIRS, _STATES, _STATUSES)),
+    Function("pendular_ruptures", ruptures, (Integer(), Count(), Array(), PAIRS, STATES, _STATUSES)),
 )

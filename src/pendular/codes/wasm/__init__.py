@@ -6,11 +6,13 @@ from pathlib import Path
 from string import Template
 
 from ... import __version__
+from ...exact.batch import MOST_NODES
 from ...exact.state import State
 from ...ground.compile import has_compiler
 from ...ground.webassembly import linker, module_of
 from ..folder import write_folder
-from ..library.kernels import FAILED, FUNCTIONS
+from ..library.kernels import FAILED
+from .functions import functions
 
 __all__ = ["MODULE", "SCRIPT", "TYPES", "write"]
 
@@ -39,11 +41,12 @@ def write(folder: Path) -> list[Path]:
         raise ValueError("wasm: needs numba, which compiles it; pip install numba")
     if (found := linker()) is None:
         raise ValueError("wasm: needs wasm-ld, which links it; apt-get install lld, or brew install lld")
-    contents = {MODULE: module_of(FUNCTIONS, FAILED, found), SCRIPT: _text(SCRIPT), TYPES: _text(TYPES)}
+    contents = {MODULE: module_of(functions(), FAILED, found), SCRIPT: _text(SCRIPT), TYPES: _text(TYPES)}
     return write_folder(folder, contents)
 
 
 def _text(name: str) -> bytes:
     """A file of this package, with the names of a state as the solver has them."""
     text = (files(__package__) / name).read_text(encoding="utf-8")
-    return Template(text).safe_substitute(version=__version__, fields=json.dumps(State._fields)).encode()
+    told = {"version": __version__, "fields": json.dumps(State._fields), "most_nodes": MOST_NODES}
+    return Template(text).safe_substitute(told).encode()

@@ -28,13 +28,29 @@ export interface Bridge {
   halfFillingAngle: [number, number];
   liquidGasArea: number;
   wettedArea: [number, number];
+  /** Against dry solids. [J] */
+  surfaceEnergy: number;
+  /** Surface energy and suction times volume. [J] */
+  grandPotential: number;
   /** Integral of n n over the meniscus: one of the two equal components across the axis, and that along it. [m2] */
   capillaryTensor: [number, number];
   /** Those that keep the axis, under the control. */
   unstableDirections: number;
   sidewaysStable: boolean;
+  /** Under the control, sideways too. */
+  stable: boolean;
   /** The arc from its middle: radius, slope angle, half its length, mean curvature. */
   meridian: { radius: number; slope: number; halfLength: number; curvature: number };
+}
+
+/** What a law gives; the control is its own, a suction or a volume. NaN outside of its domain. */
+export interface Law {
+  /** F/(2πγR̄), 0 beyond rupture. */
+  force?(
+    separation: number, control: number, angle1: number, angle2: number, kappa1: number, kappa2: number,
+  ): number;
+  /** The rupture distance over R̄. */
+  rupture?(control: number, angle1: number, angle2: number, kappa1: number, kappa2: number): number;
 }
 
 export interface Solver {
@@ -44,6 +60,14 @@ export interface Solver {
   bridges(pair: Pair, separations: Iterable<number>, liquid: Liquid): (Bridge | null)[];
   /** The bridge at the end of its stable branch, where it breaks; null where there is none. */
   rupture(pair: Pair, liquid: Liquid): Bridge | null;
+  /** The bridge at which the stable branch begins, null where that is contact. */
+  lowerEnd(pair: Pair, liquid: Liquid): Bridge | null;
+  /** From contact, or the lower end, to rupture in the middle, and down the unstable branch; 201 points if not told. */
+  curve(pair: Pair, liquid: Liquid, points?: number): (Bridge | null)[];
+  /** The meridian to draw: the facing poles lie at x = 0 and x = separation; 161 points if not told. [m] */
+  profile(pair: Pair, bridge: Bridge, points?: number): { x: Float64Array; y: Float64Array };
+  /** Published laws by their names, reduced by the Derjaguin radius as in Python. */
+  laws: Record<string, Law>;
 }
 
 /** The solver, from the bytes or the address of its module; else from pendular.wasm beside the script. */

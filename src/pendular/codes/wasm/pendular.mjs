@@ -16,8 +16,12 @@
 const FIELDS = ${fields};
 const [FOUND, NO_BRIDGE, FAILED] = [0, 1, 2];
 const CONTROLS = ["suction", "volume"];
-const IMPORTS = ["atan", "atan2", "cos", "exp", "hypot", "log", "log1p", "pow", "sin"];
+const IMPORTS = ["acos", "asin", "atan", "atan2", "cos", "exp", "hypot", "log", "log1p", "pow", "sin", "tan"];
 const PAIR_NUMBERS = 5;
+const MOST_NODES = ${most_nodes}; // on the way along a branch
+const NODE_NUMBERS = 4;
+const BYTES = 8;
+const LAW = /^law_(.+)_(force|rupture)$$/;
 
 /** The solver, from the bytes or the address of its module; else from the file beside this one. */
 export async function load(source = new URL("pendular.wasm", import.meta.url)) {
@@ -39,21 +43,57 @@ async function bytesAt(source) {
 }
 
 function solver(module) {
-  const pairAt = Math.ceil(module.__heap_base.value / 8);
+  const pairAt = Math.ceil(module.__heap_base.value / BYTES);
   const stateAt = pairAt + PAIR_NUMBERS;
-  const missing = 8 * (stateAt + FIELDS.length) - module.memory.buffer.byteLength;
-  if (missing > 0) module.memory.grow(Math.ceil(missing / 65536));
-  const numbers = new Float64Array(module.memory.buffer);
+  const roomAt = stateAt + FIELDS.length;
+  let numbers = new Float64Array(0);
+  makeRoom(0);
 
-  function asked(pair, liquid, ask) {
+  function makeRoom(count) {
+    const missing = BYTES * (roomAt + count) - module.memory.buffer.byteLength;
+    if (missing > 0) module.memory.grow(Math.ceil(missing / 65536));
+    if (numbers.buffer !== module.memory.buffer) numbers = new Float64Array(module.memory.buffer);
+  }
+
+  function statusOf(pair, liquid, ask) {
     const { control, held } = heldBy(liquid);
     numbers.set([...both("radius", pair.radius), ...both("contactAngle", pair.contactAngle ?? 0)], pairAt);
     numbers[pairAt + 4] = liquid.surfaceTension;
-    const status = ask(control, held, 8 * pairAt, 8 * stateAt);
-    if (status === NO_BRIDGE) return null;
+    const status = ask(control, held, BYTES * pairAt, BYTES * stateAt);
     if (status === FAILED) throw new Error("the solver did not find, or exclude, the bridge");
-    if (status !== FOUND) throw new RangeError("pair, separation, suction or volume: out of range");
-    return stateOf(numbers.subarray(stateAt, stateAt + FIELDS.length), liquid.surfaceTension);
+    if (status !== FOUND && status !== NO_BRIDGE) throw new RangeError("pair, separation, suction or volume: out of range");
+    return status;
+  }
+
+  const stateIn = (at, pair, liquid) =>
+    stateOf(numbers.subarray(at, at + FIELDS.length), both("contactAngle", pair.contactAngle ?? 0), liquid.surfaceTension);
+
+  const asked = (pair, liquid, ask) => (statusOf(pair, liquid, ask) === FOUND ? stateIn(stateAt, pair, liquid) : null);
+
+  function curve(pair, liquid, points = 201) {
+    if (!(Number.isInteger(points) && points >= 5)) throw new RangeError("points: give a whole number, 5 or more");
+    const size = points * FIELDS.length;
+    makeRoom(size + MOST_NODES * NODE_NUMBERS);
+    const status = statusOf(pair, liquid, (control, held, pairBytes) =>
+      module.pendular_curve(
+        control, held, pairBytes, BigInt(points), BYTES * roomAt, BigInt(MOST_NODES), BYTES * (roomAt + size),
+      ),
+    );
+    if (status === NO_BRIDGE) return [];
+    const states = Array.from({ length: points }, (_, i) => stateIn(roomAt + i * FIELDS.length, pair, liquid));
+    return states.map((state) => (Number.isNaN(state.separation) ? null : state));
+  }
+
+  function profile(pair, state, points = 161) {
+    if (!(Number.isInteger(points) && points >= 3)) throw new RangeError("points: give a whole number, 3 or more");
+    const { radius, slope, halfLength, curvature } = state.meridian;
+    makeRoom(2 * points);
+    numbers.set([radius, slope, halfLength, curvature], stateAt);
+    module.pendular_meridian(BYTES * stateAt, BigInt(points), BYTES * roomAt, BYTES * (roomAt + points));
+    const [first] = both("radius", pair.radius);
+    const depth = first === Infinity ? 0 : 2 * first * Math.sin(0.5 * state.halfFillingAngle[0]) ** 2;
+    const x = numbers.slice(roomAt, roomAt + points).map((place) => place - depth);
+    return { x, y: numbers.slice(roomAt + points, roomAt + 2 * points) };
   }
 
   return {
@@ -68,7 +108,20 @@ function solver(module) {
       );
     },
     rupture: (pair, liquid) => asked(pair, liquid, module.pendular_rupture),
+    lowerEnd: (pair, liquid) => asked(pair, liquid, module.pendular_lower_end),
+    curve,
+    profile,
+    laws: lawsOf(module),
   };
+}
+
+function lawsOf(module) {
+  const laws = {};
+  for (const [name, answer] of Object.entries(module)) {
+    const found = LAW.exec(name);
+    if (found) (laws[found[1]] ??= {})[found[2]] = answer;
+  }
+  return laws;
 }
 
 function heldBy(liquid) {
@@ -84,8 +137,9 @@ function both(name, value) {
   return values;
 }
 
-function stateOf(row, surfaceTension) {
+function stateOf(row, angles, surfaceTension) {
   const of = Object.fromEntries(FIELDS.map((name, i) => [name, row[i]]));
+  const energy = of.area - Math.cos(angles[0]) * of.wetted_area1 - Math.cos(angles[1]) * of.wetted_area2;
   return {
     separation: of.separation,
     suction: of.curvature * surfaceTension,
@@ -98,9 +152,12 @@ function stateOf(row, surfaceTension) {
     halfFillingAngle: [of.filling1, of.filling2],
     liquidGasArea: of.area,
     wettedArea: [of.wetted_area1, of.wetted_area2],
+    surfaceEnergy: surfaceTension * energy,
+    grandPotential: surfaceTension * (energy + of.curvature * of.volume),
     capillaryTensor: [of.across_tensor, of.axial_tensor],
     unstableDirections: of.unstable_directions,
     sidewaysStable: of.sideways_stable === 1,
+    stable: of.unstable_directions === 0 && of.sideways_stable === 1,
     meridian: { radius: of.middle_radius, slope: of.middle_slope, halfLength: of.half_length, curvature: of.curvature },
   };
 }

@@ -1,0 +1,74 @@
+"""What the module answers beside the functions of the library: whole curves, outlines to draw, and the laws."""
+
+import math
+from collections.abc import Iterator
+
+from ...ask.domain import length_unit
+from ...exact.algebra import Four
+from ...exact.answers import LOWER_END, holds_nothing
+from ...exact.follow import BRANCH_ENDS
+from ...exact.meridian import lay_meridian
+from ...exact.tracing import trace
+from ...ground.compile import kernel
+from ...ground.linkable import Array, Count, Function, Integer, Real
+from ...laws import Quantity
+from ...laws._registry import house_laws
+from ..library import kernels
+from ..library.kernels import BAD_INPUT, FOUND, NO_BRIDGE, PAIRS, STATES, Floats, in_units, is_fit
+
+__all__ = ["functions"]
+
+_NODE = 4  # numbers of a place on the way along a branch
+_ASKED: tuple[Quantity, ...] = ("force", "rupture")  # of a law
+
+
+@kernel
+def lower_end(control: int, held: float, pairs: Floats, states: Floats) -> int:
+    """The bridge at which the stable branch begins, if that is not at contact; the status."""
+    return kernels.end_of_branch(LOWER_END, control, held, pairs, states, 0)
+
+
+@kernel
+def curve(control: int, held: float, pairs: Floats, states: Floats, nodes: Floats) -> int:
+    """Bridges from contact, or the lower end, to rupture in the middle, and down the unstable branch; the status."""
+    pair = pairs[0]
+    states[:] = math.nan
+    likely = kernels.likely_separation(held, pair)
+    if not is_fit(control, likely, held, pair):
+        return BAD_INPUT
+    length = length_unit(control, held, pair[0], pair[1])
+    task = kernels.task_of(control, likely, held, length, pair)
+    status = NO_BRIDGE if holds_nothing(task) else trace(BRANCH_ENDS, task, states, nodes)
+    if status == FOUND:
+        for i in range(states.shape[0]):
+            in_units(states[i], length, pair[4])
+    return status
+
+
+@kernel
+def meridian(arc: Floats, place: Floats, radius: Floats) -> int:
+    """Place from the first end and radius along the arc with a middle radius, slope, half length and curvature."""
+    middle, slope, length, curvature = arc[0], arc[1], arc[2], arc[3]
+    if not (middle > 0.0 and length > 0.0):
+        return NO_BRIDGE
+    lay_meridian(Four(math.log(middle), slope, math.log(length), curvature * length), place, radius)
+    return FOUND
+
+
+def functions() -> tuple[Function, ...]:
+    """All functions of the module, the laws of this package among them."""
+    branch = (Integer(), Real(), PAIRS)
+    drawn = (
+        Function("pendular_lower_end", lower_end, (*branch, STATES)),
+        Function("pendular_curve", curve, (*branch, Count(), STATES, Count(), Array(_NODE))),
+        Function("pendular_meridian", meridian, (Array(), Count(), Array(), Array())),
+    )
+    return (*kernels.FUNCTIONS, *drawn, *_laws())
+
+
+def _laws() -> Iterator[Function]:
+    for law in house_laws():
+        for quantity in _ASKED:
+            if (function := law.kernels.get(quantity)) is not None:
+                count = function.__code__.co_argcount
+                yield Function(f"law_{law.name}_{quantity}", function, (Real(),) * count, Real())
