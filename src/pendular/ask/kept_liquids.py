@@ -26,8 +26,11 @@ from importlib.resources import files
 from typing import NamedTuple
 
 __all__ = [
+    "WATER_CRITICAL_DENSITY",
     "WATER_CRITICAL_TEMPERATURE",
+    "WATER_DENSITY",
     "WATER_MOLAR_MASS",
+    "WATER_TENSION",
     "Correlation",
     "KeptLiquid",
     "density_at",
@@ -39,8 +42,9 @@ __all__ = [
 
 WATER_CRITICAL_TEMPERATURE = 647.096  # [K]
 WATER_MOLAR_MASS = 0.018015268  # [kg/mol], of IAPWS
-_WATER_CRITICAL_DENSITY = 322.0  # [kg/m³]
-_WATER_DENSITY = (  # SR1-86, Eq. (2): coefficients and exponents
+WATER_TENSION = (0.2358, 1.256, -0.625)  # R1-76: size, exponent and linear term
+WATER_CRITICAL_DENSITY = 322.0  # [kg/m³]
+WATER_DENSITY = (  # SR1-86, Eq. (2): coefficients and exponents
     (1.99274064, 1.0 / 3.0),
     (1.09965342, 2.0 / 3.0),
     (-0.510839303, 5.0 / 3.0),
@@ -137,7 +141,8 @@ def water_tension(kelvin: float) -> float:
     72.7361 mN/m
     """
     tau = 1.0 - kelvin / WATER_CRITICAL_TEMPERATURE
-    return float(0.2358 * tau**1.256 * (1.0 - 0.625 * tau))
+    size, exponent, linear = WATER_TENSION
+    return float(size * tau**exponent * (1.0 + linear * tau))
 
 
 def water_density(kelvin: float) -> float:
@@ -149,4 +154,4 @@ def water_density(kelvin: float) -> float:
     998.158 kg/m3
     """
     tau = 1.0 - kelvin / WATER_CRITICAL_TEMPERATURE
-    return float(_WATER_CRITICAL_DENSITY * (1.0 + sum(b * tau**n for b, n in _WATER_DENSITY)))
+    return float(WATER_CRITICAL_DENSITY * (1.0 + sum(b * tau**n for b, n in WATER_DENSITY)))

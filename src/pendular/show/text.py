@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 __all__ = [
+    "ENDINGS",
     "UNITS",
     "Column",
     "column_of",
@@ -42,7 +43,7 @@ __all__ = [
 UNITS = {name: unit for name, unit, _ in FIELDS}
 
 # Fields with a last axis of two; but for the tensor, one for each solid.
-_ENDINGS = {
+ENDINGS = {
     "contact_radius": ("1", "2"),
     "half_filling_angle": ("1", "2"),
     "wetted_area": ("1", "2"),
@@ -79,10 +80,10 @@ def columns(bridge: Bridge) -> list[Column]:
 
 
 def _apart(name: str, unit: str, values: Any) -> Iterator[Column]:
-    if name not in _ENDINGS:
+    if name not in ENDINGS:
         yield Column(name, unit, values)
         return
-    for i, ending in enumerate(_ENDINGS[name]):
+    for i, ending in enumerate(ENDINGS[name]):
         yield Column(f"{name}_{ending}", unit, values[..., i])
 
 
@@ -128,7 +129,7 @@ def with_asked(bridge: Bridge, **asked: ArrayLike) -> Bridge:
 
 def _each(exists: Any, name: str) -> Any:
     """Whether there is a bridge, for each number of a field."""
-    return np.asarray(exists)[..., None] if name in _ENDINGS else exists
+    return np.asarray(exists)[..., None] if name in ENDINGS else exists
 
 
 def on_solid(values: ArrayLike, solid: int, bridge: Bridge) -> NDArray[np.float64]:
@@ -269,7 +270,7 @@ def _table_of_rows(rows: Iterable[Row]) -> Table:
 def _in_words(name: str, value: Any) -> str:
     if isinstance(value, bool | np.bool_):
         return "yes" if value else "no"
-    if name not in _ENDINGS:
+    if name not in ENDINGS:
         return show(float(value), UNITS[name])
     first, second = (show(float(one), UNITS[name]) for one in value)
     return f"{first} each" if first == second and name != "capillary_tensor" else f"{first}, {second}"
