@@ -50,8 +50,6 @@ int FixBridges::setmask()
 
 void FixBridges::init()
 {
-    if (!atom->tag_enable)
-        error->all(FLERR, "Pair pendular: atoms have no ids; leave out 'atom_modify id no'");
     for (const Fix *fix : modify->get_fix_list()) {
         if (fix == this)
             break;
@@ -79,9 +77,11 @@ void FixBridges::pre_exchange()
     counts_only = false;
     comm->reverse_comm_variable(this);
     most = 0;
-    for (int i = 0; i < local; ++i)
+    for (int i = 0; i < local; ++i) {
         most = std::max(most, count[i]);
-    maxexchange = PARTNER * most + 1;
+        known_as[i] = atom->tag[i];
+    }
+    maxexchange = PARTNER * most + 2;
     for (int i = local; i < static_cast<int>(count.size()); ++i) /* ghosts, and atoms that were added since */
         count[i] = 0;
 }
@@ -121,6 +121,10 @@ void FixBridges::post_neighbor()
 {
     local = atom->nlocal;
     all = local + atom->nghost;
+    for (int i = 0; i < local; ++i)
+        if (count[i] && known_as[i] != atom->tag[i])
+            error->one(FLERR, "Pair pendular: atom {} with a bridge became atom {}; use 'delete_atoms ... compress no'",
+                known_as[i], atom->tag[i]);
     if (pair)
         pair->take_list();
 }
@@ -129,12 +133,14 @@ void FixBridges::grow_arrays(int most_atoms)
 {
     start.resize(most_atoms, 0);
     count.resize(most_atoms, 0);
+    known_as.resize(most_atoms, 0);
 }
 
 void FixBridges::copy_arrays(int i, int j, int)
 {
     start[j] = start[i];
     count[j] = count[i];
+    known_as[j] = known_as[i];
 }
 
 void FixBridges::set_arrays(int i)
@@ -189,21 +195,23 @@ int FixBridges::pack(int i, double *buffer) const
 
 int FixBridges::unpack(int i, const double *buffer)
 {
-    const int sent = static_cast<int>(buffer[0]);
+    const int sent = static_cast<int>(buffer[1]);
+    known_as[i] = static_cast<tagint>(ubuf(buffer[0]).i);
     start[i] = pool.size();
     count[i] = sent;
     most = std::max(most, sent);
-    maxexchange = std::max(maxexchange, PARTNER * sent + 1);
+    maxexchange = std::max(maxexchange, PARTNER * sent + 2);
     for (int m = 0; m < sent; ++m) {
-        const double *partner = buffer + 1 + PARTNER * m;
+        const double *partner = buffer + 2 + PARTNER * m;
         pool.push_back({static_cast<tagint>(ubuf(partner[0]).i), -1, partner[1]});
     }
-    return 1 + PARTNER * sent;
+    return 2 + PARTNER * sent;
 }
 
 int FixBridges::pack_exchange(int i, double *buffer)
 {
-    return pack(i, buffer);
+    buffer[0] = ubuf(static_cast<int64_t>(known_as[i])).d;
+    return 1 + pack(i, buffer + 1);
 }
 
 int FixBridges::unpack_exchange(int i, double *buffer)
@@ -222,7 +230,7 @@ void FixBridges::write_restart(FILE *file)
 
 int FixBridges::pack_restart(int i, double *buffer)
 {
-    const int size = 1 + pack(i, buffer + 1);
+    const int size = 1 + pack_exchange(i, buffer + 1);
     buffer[0] = size;
     return size;
 }
@@ -237,20 +245,20 @@ void FixBridges::unpack_restart(int i, int nth)
 
 int FixBridges::size_restart(int i)
 {
-    return 2 + PARTNER * count[i];
+    return 3 + PARTNER * count[i];
 }
 
 int FixBridges::maxsize_restart()
 {
     int largest;
     MPI_Allreduce(&most, &largest, 1, MPI_INT, MPI_MAX, world);
-    return 2 + PARTNER * largest;
+    return 3 + PARTNER * largest;
 }
 
 double FixBridges::memory_usage()
 {
     return static_cast<double>(pool.capacity()) * sizeof(Partner)
-        + static_cast<double>(start.capacity()) * (sizeof(size_t) + sizeof(int));
+        + static_cast<double>(start.capacity()) * (sizeof(size_t) + sizeof(int) + sizeof(tagint));
 }
 
 }    // namespace pendular_lammps

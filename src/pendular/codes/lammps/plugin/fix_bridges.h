@@ -62,6 +62,7 @@ private:
     std::vector<Partner> pool;
     std::vector<size_t> start; /* of the partners of each atom in the pool */
     std::vector<int> count;
+    std::vector<LAMMPS_NS::tagint> known_as; /* id that the partners have of an atom */
     int most = 0; /* partners of an atom */
     int local = 0, all = 0; /* atoms when the list was built */
     bool is_behind = false; /* the pair style has gone on since the atoms got their partners */

@@ -136,6 +136,8 @@ void PairPendular::init_style()
 {
     if (!atom->radius_flag)
         error->all(FLERR, "{}: atoms have no radius; use 'atom_style sphere'", WHO);
+    if (!atom->tag_enable)
+        error->all(FLERR, "{}: atoms have no ids; leave out 'atom_modify id no'", WHO);
     if (!history)
         error->all(FLERR, "{}: its fix {} was deleted", WHO, FixBridges::NAME);
     check_units(lmp, WHO);
@@ -154,7 +156,32 @@ void PairPendular::init_style()
     radii_change = false;
     for (const Fix *fix : modify->get_fix_list())
         radii_change = radii_change || fix->diam_flag;
-    neighbor->add_request(this, NeighConst::REQ_NEWTON_ON);
+    if (atom->map_style == Atom::MAP_NONE) {
+        atom->map_user = Atom::MAP_YES;
+        atom->map_init();
+    }
+    lender = list_lender();
+    if (!lender)
+        neighbor->add_request(this, NeighConst::REQ_NEWTON_ON | (forms_apart() ? 0 : NeighConst::REQ_SIZE));
+}
+
+bool PairPendular::forms_apart() const
+{
+    return std::any_of(
+        laws.begin(), laws.end(), [](const std::shared_ptr<Law> &law) { return law->formation > 0.0; });
+}
+
+/* A style for grains, whose list has all pairs that may touch before the next list. */
+Pair *PairPendular::list_lender() const
+{
+    Pair *style = force->newton_pair && !forms_apart() ? force->pair_match("^gran", 0) : nullptr;
+    if (!style || !style->setflag || utils::strmatch(force->pair_match_ptr(style), "/kk"))
+        return nullptr;
+    for (int i = 1; i <= atom->ntypes; ++i)
+        for (int j = i; j <= atom->ntypes; ++j)
+            if (!style->setflag[i][j])
+                return nullptr;
+    return style;
 }
 
 /* Of the atoms that there are, and of those that fixes will make. */
@@ -235,8 +262,11 @@ void PairPendular::take_list()
     watched.clear();
     if (film.is_there())
         film.clear(atom->nlocal + atom->nghost);
-    for (int row = 0; row < list->inum; ++row)
-        find_row(list->ilist[row]);
+    for (int i = 0; i < atom->nlocal; ++i)
+        find_bridges(i);
+    const NeighList &near = lender ? *lender->list : *list;
+    for (int row = 0; row < near.inum; ++row)
+        find_watched(near, near.ilist[row]);
     ends.insert(ends.end(), ends_apart.begin(), ends_apart.end());
     std::move(bridges_apart.begin(), bridges_apart.end(), std::back_inserter(bridges));
     ends_apart.clear();
@@ -245,24 +275,38 @@ void PairPendular::take_list()
         return_lost();
 }
 
-/* The pairs of an atom in the list: those with a bridge, and those that may form one before the next list. */
-void PairPendular::find_row(int i)
+/* The rank that has the grain of the lower id has the bridge. */
+void PairPendular::find_bridges(int i)
+{
+    double **x = atom->x;
+    const tagint own = atom->tag[i];
+    for (const Partner *partner = history->begin(i); partner != history->end(i); ++partner) {
+        if (partner->tag < own || partner->tag > atom->map_tag_max)
+            continue;
+        const int j = domain->closest_image(i, atom->map(partner->tag));
+        if (j < 0)
+            continue;
+        const double dx = x[j][0] - x[i][0], dy = x[j][1] - x[i][1], dz = x[j][2] - x[i][2];
+        const double sum = atom->radius[i] + atom->radius[j];
+        take_over(i, j, *law_of[atom->type[i]][atom->type[j]], *partner, dx * dx + dy * dy + dz * dz > sum * sum);
+    }
+}
+
+/* The pairs of an atom that may form a bridge before the next list. */
+void PairPendular::find_watched(const NeighList &near, int i)
 {
     double **x = atom->x;
     const double *radius = atom->radius;
     const Partner *begin = history->begin(i), *end = history->end(i);
-    for (int k = 0; k < list->numneigh[i]; ++k) {
-        const int j = list->firstneigh[i][k] & NEIGHMASK;
-        Law *law = law_of[atom->type[i]][atom->type[j]];
+    for (int k = 0; k < near.numneigh[i]; ++k) {
+        const int j = near.firstneigh[i][k] & NEIGHMASK;
         const double dx = x[j][0] - x[i][0], dy = x[j][1] - x[i][1], dz = x[j][2] - x[i][2];
-        const double square = dx * dx + dy * dy + dz * dz, sum = radius[i] + radius[j];
-        const Partner *partner = begin;
-        while (partner != end && partner->tag != atom->tag[j])
-            ++partner;
-        const double near = sum + law->formation + neighbor->skin;
-        if (partner != end)
-            take_over(i, j, *law, *partner, square > sum * sum);
-        else if (square <= near * near)
+        const double reach
+            = radius[i] + radius[j] + law_of[atom->type[i]][atom->type[j]]->formation + neighbor->skin;
+        if (dx * dx + dy * dy + dz * dz > reach * reach)
+            continue;
+        const tagint tag = atom->tag[j];
+        if (std::none_of(begin, end, [tag](const Partner &partner) { return partner.tag == tag; }))
             watch(i, j);
     }
 }

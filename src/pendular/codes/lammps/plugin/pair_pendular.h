@@ -63,6 +63,7 @@ private:
     std::vector<Candidate> forming;
     std::vector<double> on_ghosts; /* force, energy and virial, where LAMMPS does not bring them home */
     FixBridges *history = nullptr;
+    LAMMPS_NS::Pair *lender = nullptr; /* whose list serves here, if there is one */
     Film film;
     bool radii_change = false;
     int homeward = 0; /* numbers of a ghost that are sent home, 0 if it is talked of films */
@@ -72,7 +73,10 @@ private:
     void find_largest();
     void check_radii() const;
     void check_box() const;
-    void find_row(int i);
+    bool forms_apart() const;
+    LAMMPS_NS::Pair *list_lender() const;
+    void find_bridges(int i);
+    void find_watched(const LAMMPS_NS::NeighList &near, int i);
     void take_over(int i, int j, Law &, const Partner &, bool is_apart);
     void refresh();
     template <bool TALLIES> void add_forces();

@@ -14,6 +14,7 @@ namespace pendular_lammps {
 namespace {
     constexpr double ROUNDING = 1.0 + 1e-12;
     constexpr int HOME = 10; /* numbers of a ghost: force, energy, virial */
+    constexpr size_t AHEAD = 32; /* bridges that are fetched from memory before their turn */
 }    // namespace
 
 void PairPendular::compute(int eflag, int vflag)
@@ -65,8 +66,12 @@ template <bool TALLIES> void PairPendular::add_forces()
     const double *x = atom->x[0]; /* rows lie side by side, and a pointer to each takes time */
     double *f = atom->f[0];
     const bool keeps_ghosts = !force->newton_pair;
+    const size_t last = ends.size() - 1;
     for (int k = 0; k < count; ++k) {
         const Ends &pair = ends[k];
+#ifdef __GNUC__
+        __builtin_prefetch(&ends[std::min(k + AHEAD, last)]);
+#endif
         const double *from = x + 3L * pair.i, *to = x + 3L * pair.j;
         const double dx = to[0] - from[0], dy = to[1] - from[1], dz = to[2] - from[2];
         const double distance = std::sqrt(dx * dx + dy * dy + dz * dz);
@@ -206,7 +211,9 @@ void PairPendular::look_at_watched()
         const int i = pair.i, j = pair.j;
         const double dx = x[j][0] - x[i][0], dy = x[j][1] - x[i][1], dz = x[j][2] - x[i][2];
         if (dx * dx + dy * dy + dz * dz > pair.near) {
-            watched[kept++] = pair;
+            if (kept != k)
+                watched[kept] = pair;
+            ++kept;
             continue;
         }
         Law &law = *law_of[atom->type[i]][atom->type[j]];
