@@ -16,6 +16,9 @@ from .ask.pair import Pair as Pair
 from .ask.problem import ConvergenceWarning as ConvergenceWarning
 from .ask.result import Bridge as Bridge
 from .ask.result import Profile as Profile
+from .ask.shapes import Cone as Cone
+from .ask.shapes import Disc as Disc
+from .ask.shapes import Paraboloid as Paraboloid
 from .codes.grains.labelled import packing_dataset as packing_dataset
 from .codes.grains.reading import read_packing as read_packing
 from .codes.grains.writing import write_packing as write_packing

@@ -11,6 +11,7 @@ from ..laws import laws
 from .by_angle import bridge_by_angle
 from .by_dataset import bridge_by_dataset, rupture_by_dataset
 from .by_law import bridge_by_law, rupture_by_law
+from .by_shape import bridge_by_shape, curve_by_shape
 from .by_table import bridge_by_table, rupture_by_table
 from .fields import TO_GO_ON, checked_fields, narrowed
 from .liquid import HUMIDITY_UNCERTAINTY, Liquid, humidity_from_suction, suction_from_humidity, warn_kelvin
@@ -134,14 +135,17 @@ def bridge(
     >>> print(f"{b.force:.4e} N, {b.volume:.4e} m3, stable: {b.stable}")
     1.5087e-05 N, 1.3015e-15 m3, stable: True
     """
-    one_of("branch", branch, ("stable", "unstable"))
     one_of("limit", limit, ("stability", "fold"))
     wanted = checked_fields(fields)
     check_pair(pair)
     control = control_of(suction, volume, humidity, liquid)
     is_approximate = _is_approximate(method, pair)
-    if is_approximate:
-        one_of("branch", branch, ("stable",))
+    one_of("branch", branch, ("stable",) if is_approximate else ("stable", "unstable"))
+    if pair.shape is not None:
+        _refuse_filling_angle(half_filling_angle, pair)
+        answer = bridge_by_shape(pair, control, liquid, separation, branch, limit)
+        _judge_curvature(control, humidity, liquid, answer)
+        return narrowed(answer, wanted)
     if half_filling_angle is not None:
         if is_approximate:
             raise ValueError(f"half_filling_angle: method {method!r} does not know it; 'exact' does")
@@ -241,8 +245,11 @@ def rupture(
     _refuse_drained_planes(pair, control, humidity)
     if humidity is not None:
         warn_kelvin(liquid.surface_tension / control.value, 0.0)
+    is_approximate = _is_approximate(method, pair)
+    if pair.shape is not None:
+        return bridge_by_shape(pair, control, liquid, None, end, limit)
     problem = reduce(pair, control, liquid, None)
-    if _is_approximate(method, pair):
+    if is_approximate:
         one_of("end", end, ("upper",))
         one_of("limit", limit, ("stability",))
         return _RUPTURES[method](problem) if method in _RUPTURES else rupture_by_law(problem, method)
@@ -295,6 +302,8 @@ def curve(
     _refuse_drained_planes(pair, control, humidity)
     if humidity is not None:
         warn_kelvin(liquid.surface_tension / control.value, 0.0)
+    if pair.shape is not None:
+        return curve_by_shape(pair, control, liquid, count, limit)
     problem = reduce(pair, control, liquid, None)
     return trace(problem, count, limit)
 
@@ -309,9 +318,20 @@ def _is_approximate(method: str, pair: Pair) -> bool:
     return method != "exact"
 
 
+def _refuse_filling_angle(half_filling_angle: object, pair: Pair) -> None:
+    if half_filling_angle is not None:
+        raise ValueError(f"half_filling_angle: means nothing beside {pair.shape}; give a separation")
+
+
 def _refuse_drained_planes(pair: Pair, control: Control, humidity: ArrayLike | None) -> None:
-    if control.name == "suction":
+    if control.name == "suction" and pair.shape is None:
         refuse_drained_planes(pair, "suction" if humidity is None else "humidity")
+
+
+def _judge_curvature(control: Control, humidity: ArrayLike | None, liquid: Liquid, answer: Bridge) -> None:
+    """Warn where the Kelvin equation is doubtful."""
+    if humidity is not None:
+        warn_kelvin(liquid.surface_tension / np.where(answer.exists, control.value, np.nan), 0.0)
 
 
 def _judge_humidity(

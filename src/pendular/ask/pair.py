@@ -3,25 +3,29 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..ground.check import angle, broadcast, in_range, plain, quantity
+from .shapes import Shape
 
 Floats = NDArray[np.float64]
 PerSolid = ArrayLike | tuple[ArrayLike, ArrayLike]
+Checked = TypeVar("Checked")
+Solids = ArrayLike | Shape | tuple[ArrayLike | Shape, ArrayLike | Shape]
 
 
 @dataclass(frozen=True, eq=False)
 class Pair:
-    """Two solids on one axis: spheres of any radii, a sphere and a plane, or two planes.
+    """Two solids on one axis: spheres of any radii, planes, cones, paraboloids, and the flat ends of cylinders.
 
     Parameters
     ----------
-    radius : array_like or tuple of two
+    radius : array_like, Cone, Paraboloid, Disc, or tuple of two
         R, [m], > 0; ``inf`` is a plane. A tuple gives the two solids apart, anything else both at once; each value
-        may be an array.
+        may be an array. Another solid takes the place of a radius.
     contact_angle : array_like or tuple of two
         θ through the liquid, [rad], in [0, π); 0, a liquid that wets all, if not given.
 
@@ -40,18 +44,34 @@ class Pair:
     0.0001
     """
 
-    radius: PerSolid
+    radius: Solids
     contact_angle: PerSolid = 0.0
 
     def __post_init__(self) -> None:
-        radii = _per_solid("radius", self.radius, _radius)
         _per_solid("contact_angle", self.contact_angle, angle)
-        broadcast(**{"radius[0]": radii[0], "radius[1]": radii[1]})
+        radii = [solid for solid in self.solids if not isinstance(solid, Shape)]
+        broadcast(**{f"radius[{i}]": radius for i, radius in enumerate(radii)})
+
+    @property
+    def solids(self) -> tuple[Floats | Shape, Floats | Shape]:
+        """The first and the second solid: a radius, [m], or another shape."""
+        return _per_solid("radius", self.radius, _solid)
+
+    @property
+    def shape(self) -> Shape | None:
+        """The first of its solids that is neither a sphere nor a plane, if there is one."""
+        return next((solid for solid in self.solids if isinstance(solid, Shape)), None)
 
     @property
     def radii(self) -> tuple[Floats, Floats]:
         """R of the first and of the second solid, [m]."""
-        return _per_solid("radius", self.radius, _radius)
+        first, second = self.solids
+        if isinstance(first, Shape) or isinstance(second, Shape):
+            raise ValueError(
+                f"radius: {self.shape} is neither a sphere nor a plane; bridge, rupture and curve know it, by the "
+                "method 'exact', and nothing else does"
+            )
+        return first, second
 
     @property
     def contact_angles(self) -> tuple[Floats, Floats]:
@@ -106,7 +126,7 @@ def refuse_planes(pair: Pair, unknown: str) -> None:
         raise ValueError(f"radius: inf and inf are two planes, which {unknown}; method 'exact' does")
 
 
-def _per_solid(name: str, value: PerSolid, check: Callable[[str, object], Floats]) -> tuple[Floats, Floats]:
+def _per_solid(name: str, value: Any, check: Callable[[str, object], Checked]) -> tuple[Checked, Checked]:
     """Check a value that belongs to each solid: a tuple gives the two apart."""
     if not isinstance(value, tuple):
         both = check(name, value)
@@ -114,6 +134,10 @@ def _per_solid(name: str, value: PerSolid, check: Callable[[str, object], Floats
     if len(value) != 2:
         raise ValueError(f"{name}: a tuple of {len(value)} is not a pair (first solid, second solid)")
     return check(f"{name}[0]", value[0]), check(f"{name}[1]", value[1])
+
+
+def _solid(name: str, value: object) -> Floats | Shape:
+    return value if isinstance(value, Shape) else _radius(name, value)
 
 
 def _radius(name: str, value: object) -> Floats:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from ..exact.batch import lay
 from ..ground.check import in_range, whole_number
 from .mesh import SHOWN_OF_A_PLANE, Mesh, meniscus_rings, turned
+from .shapes import Shape
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -57,6 +58,7 @@ class Bridge:
     _meridian: Floats = _of("m", "radius and slope in the middle of the meridian, half its length", private=True)
     _solid_radius: Floats = _of("m", "radii of the solids", private=True)
     _surface_tension: float = _of("N/m", "surface tension", private=True)
+    _shapes: tuple[Shape | None, Shape | None] = field(default=(None, None), repr=False)  # solids without a radius
 
     def profile(self, points: int = 201) -> Profile:
         """Meridian of the bridge and outlines of the solids, for drawing.
@@ -85,12 +87,29 @@ class Bridge:
         curvature = np.ravel(np.asarray(self.suction) / self._surface_tension)
         x, y = lay(np.column_stack([meridian, curvature]), count)
         x, y = x.reshape(*shape, count), y.reshape(*shape, count)
-        with np.errstate(invalid="ignore"):
-            sagitta = 2.0 * self._solid_radius * np.sin(0.5 * self.half_filling_angle) ** 2
-        x = x - np.where(np.isinf(self._solid_radius), 0.0, sagitta)[..., :1]
-        solid_x, solid_y = _outlines(self._solid_radius, SHOWN_OF_A_PLANE * self.contact_radius.max(axis=-1), count)
+        x = x - self._depth(0)[..., None]
+        reach = SHOWN_OF_A_PLANE * self.contact_radius.max(axis=-1)
+        outlines = [self._outline(solid, reach, count) for solid in (0, 1)]
+        solid_x, solid_y = (np.stack(both, axis=-2) for both in zip(*outlines, strict=True))
         solid_x[..., 1, :] = np.asarray(self.separation)[..., None] - solid_x[..., 1, :]
         return Profile(x, y, solid_x, solid_y)
+
+    def _depth(self, solid: int) -> Floats:
+        """Depth of a contact circle behind the pole of its solid."""
+        shape, radius = self._shapes[solid], self._solid_radius[..., solid]
+        if shape is not None:
+            return shape.depth(self.contact_radius[..., solid])
+        with np.errstate(invalid="ignore"):
+            sagitta: Floats = 2.0 * radius * np.sin(0.5 * self.half_filling_angle[..., solid]) ** 2
+        return np.where(np.isinf(radius), 0.0, sagitta)
+
+    def _outline(self, solid: int, reach: Floats, count: int) -> tuple[Floats, Floats]:
+        """Upper half of a solid with its facing pole at x = 0 and its body at x < 0; a plane is a line."""
+        shape = self._shapes[solid]
+        if shape is None:
+            return _outline(self._solid_radius[..., solid], reach, count)
+        depth, radius = shape.outline(reach, count)
+        return -depth, radius
 
     def mesh(self, around: int = 96) -> Mesh:
         """Surfaces of the liquid and of both solids as triangles, to print, to show, or to start other programs with.
@@ -128,6 +147,8 @@ class Bridge:
             raise ValueError(f"mesh: is made of one bridge, not of an array of shape {np.shape(self.separation)}")
         if not self.exists:
             raise ValueError("mesh: there is no bridge")
+        for shape in filter(None, self._shapes):
+            raise ValueError(f"mesh: {shape} is neither a sphere nor a plane, which alone have one")
         if self.separation < 0.0:
             raise ValueError(
                 f"separation: {self.separation:.6g} m is below 0: the wetted surfaces of a mesh would cross"
@@ -139,12 +160,12 @@ class Bridge:
         )
 
 
-def _outlines(radius: Floats, plane_height: Floats, count: int) -> tuple[Floats, Floats]:
-    """Upper half of each solid with its facing pole at x = 0 and its body at x < 0; a plane is a line."""
+def _outline(radius: Floats, plane_height: Floats, count: int) -> tuple[Floats, Floats]:
+    """Upper half of a sphere with its facing pole at x = 0 and its body at x < 0; a plane is a line."""
     turn = np.linspace(0.0, np.pi, count)
     is_plane = np.isinf(radius)[..., None]
     finite = np.where(np.isinf(radius), 0.0, radius)[..., None]
-    rise = np.broadcast_to(plane_height[..., None, None] * np.linspace(0.0, 1.0, count), (*radius.shape, count))
+    rise = plane_height[..., None] * np.linspace(0.0, 1.0, count)
     x = np.where(is_plane, 0.0, finite * (np.cos(turn) - 1.0))
     y = np.where(is_plane, rise, finite * np.sin(turn))
     return x, y

@@ -1,0 +1,194 @@
+"""Solids of revolution that are neither spheres nor planes, in the place of a radius."""
+
+import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..exact.shapes.pieces import Body, body_of_cone, body_of_disc, body_of_paraboloid
+from ..ground.check import in_range, scalar
+
+__all__ = ["Cone", "Disc", "Paraboloid", "Shape"]
+
+Floats = NDArray[np.float64]
+
+
+class Shape(ABC):
+    """A solid of revolution with its tip on the axis, convex."""
+
+    @property
+    @abstractmethod
+    def size(self) -> float:
+        """A length of the solid, [m]; NaN if it has none."""
+
+    @abstractmethod
+    def body(self, unit: float, contact_angle: float) -> Body:
+        """Return its pieces in a unit of length, with a contact angle."""
+
+    @abstractmethod
+    def depth(self, radius: Floats) -> Floats:
+        """Depth of its surface behind the tip at distances from the axis, [m]."""
+
+    def outline(self, reach: Floats, points: int) -> tuple[Floats, Floats]:
+        """Depths and radii of its surface from the tip out to a distance from the axis, on a further last axis."""
+        radius = np.asarray(reach)[..., None] * np.linspace(0.0, 1.0, points)
+        return self.depth(radius), radius
+
+
+@dataclass(frozen=True)
+class Cone(Shape):
+    """A cone with its tip towards the other solid, sharp or rounded off by a sphere that touches it.
+
+    Parameters
+    ----------
+    half_angle : float
+        Between the axis and the surface, [rad], in (0, π/2]; π/2 is a plane. A pyramid is about the cone of the same
+        cross-section at each height: tan β = tan α √(4/π) of a square one whose faces lie at α to the axis.
+    tip_radius : float
+        Radius of the sphere, [m]; 0, a sharp tip, if not given. The separation is that of the rounded tip.
+
+    Raises
+    ------
+    ValueError
+        If a value is out of range.
+
+    Examples
+    --------
+    >>> import pendular as pl
+    >>> probe = pl.Pair((pl.Cone(np.deg2rad(60), tip_radius=20e-9), np.inf), contact_angle=(0.5, 0.2))
+    >>> water = pl.Liquid(surface_tension=0.0728)
+    >>> print(f"{pl.bridge(probe, 1e-9, volume=1e-23, liquid=water).force:.4e} N")
+    1.9898e-08 N
+    """
+
+    half_angle: float
+    tip_radius: float = 0.0
+
+    def __post_init__(self) -> None:
+        angle = in_range(
+            "half_angle", scalar("half_angle", self.half_angle, "rad"), 0.0, 0.5 * math.pi, brackets="(]", unit="rad",
+            high_hint="for degrees use numpy.deg2rad({value})",
+        )  # fmt: skip
+        radius = in_range("tip_radius", scalar("tip_radius", self.tip_radius, "m"), 0.0, brackets="[)", unit="m")
+        object.__setattr__(self, "half_angle", float(angle))
+        object.__setattr__(self, "tip_radius", float(radius))
+
+    @property
+    def size(self) -> float:
+        """Radius of its tip, [m]; NaN if it is sharp."""
+        return self.tip_radius or math.nan
+
+    def body(self, unit: float, contact_angle: float) -> Body:
+        """Return its pieces in a unit of length, with a contact angle."""
+        return body_of_cone(self.half_angle, self.tip_radius / unit, contact_angle)
+
+    def depth(self, radius: Floats) -> Floats:
+        """Depth of its surface behind the tip at distances from the axis, [m]."""
+        start = self.tip_radius * math.cos(self.half_angle)
+        inside = np.minimum(radius, start)
+        cap = self.tip_radius - np.sqrt(self.tip_radius**2 - inside**2)
+        return cap + np.maximum(radius - start, 0.0) / math.tan(self.half_angle)
+
+
+@dataclass(frozen=True)
+class Paraboloid(Shape):
+    """A paraboloid with its tip towards the other solid: the depth behind the tip is Y²/(2r).
+
+    Parameters
+    ----------
+    tip_radius : float
+        Radius r of curvature at the tip, [m], > 0.
+
+    Raises
+    ------
+    ValueError
+        If it is out of range.
+
+    Examples
+    --------
+    >>> import pendular as pl
+    >>> tip, ball = (pl.Pair((solid, np.inf), 0.3) for solid in (pl.Paraboloid(1e-6), 1e-6))
+    >>> held = {"volume": 1e-24, "liquid": pl.Liquid(surface_tension=0.0728)}
+    >>> bool(np.isclose(pl.bridge(tip, 0.0, **held).force, pl.bridge(ball, 0.0, **held).force, rtol=1e-2))
+    True
+    """
+
+    tip_radius: float
+
+    def __post_init__(self) -> None:
+        radius = in_range("tip_radius", scalar("tip_radius", self.tip_radius, "m"), 0.0, brackets="()", unit="m")
+        object.__setattr__(self, "tip_radius", float(radius))
+
+    @property
+    def size(self) -> float:
+        """Radius of curvature at the tip, [m]."""
+        return self.tip_radius
+
+    def body(self, unit: float, contact_angle: float) -> Body:
+        """Return its one piece in a unit of length, with a contact angle."""
+        return body_of_paraboloid(self.tip_radius / unit, contact_angle)
+
+    def depth(self, radius: Floats) -> Floats:
+        """Depth of its surface behind the tip at distances from the axis, [m]."""
+        return radius * radius / (2.0 * self.tip_radius)
+
+
+@dataclass(frozen=True)
+class Disc(Shape):
+    """The flat end of a cylinder.
+
+    As a bridge grows it wets the face, is then pinned at the edge, at any angle between those at which it would recede
+    over the face and advance over the side, and would at last wet the side, where it is no longer answered.
+
+    Parameters
+    ----------
+    radius : float
+        R, [m], > 0.
+    pinned : bool
+        Whether the line is held on the edge whatever the contact angle, as by a face that the liquid wets altogether
+        and a side that it does not.
+
+    Raises
+    ------
+    ValueError
+        If the radius is out of range.
+
+    Examples
+    --------
+    The catenoid between two rings ends at D = 1.32548684 R:
+
+    >>> import pendular as pl
+    >>> rings = pl.Pair(pl.Disc(1e-3, pinned=True))
+    >>> print(f"{pl.rupture(rings, suction=0.0, liquid=pl.Liquid.water()).separation:.8e}")
+    1.32548684e-03
+    """
+
+    radius: float
+    pinned: bool = False
+
+    def __post_init__(self) -> None:
+        radius = in_range("radius", scalar("radius", self.radius, "m"), 0.0, brackets="()", unit="m")
+        object.__setattr__(self, "radius", float(radius))
+        if not isinstance(self.pinned, bool | np.bool_):
+            raise ValueError(f"pinned: {self.pinned!r} is not True or False")
+
+    @property
+    def size(self) -> float:
+        """Radius of the disc, [m]."""
+        return self.radius
+
+    def body(self, unit: float, contact_angle: float) -> Body:
+        """Return its pieces in a unit of length, with a contact angle."""
+        return body_of_disc(self.radius / unit, bool(self.pinned), contact_angle)
+
+    def depth(self, radius: Floats) -> Floats:
+        """Depth of its face, 0."""
+        return 0.0 * radius
+
+    def outline(self, reach: Floats, points: int) -> tuple[Floats, Floats]:
+        """Depths and radii of the face and the side, as far back as a length."""
+        way = np.linspace(0.0, 1.0, points)
+        radius = np.broadcast_to(np.minimum(2.0 * way, 1.0) * self.radius, (*np.shape(reach), points))
+        return np.asarray(reach)[..., None] * np.maximum(2.0 * way - 1.0, 0.0), radius

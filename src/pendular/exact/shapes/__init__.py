@@ -1,0 +1,1 @@
+"""Bridges between solids of any shape: the kernels for spheres, retold, on the smooth pieces of each shape."""

@@ -1,0 +1,271 @@
+"""What a question about two solids of any shape leads to, checked before it is given."""
+
+import math
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from ..algebra import Four, moved, unit_vector
+from ..answers import FAILED, FOUND, LARGEST_MISS, LOWER_END, MET, NO_BRIDGE, RUPTURE, STABLE
+from ..clearance import radius_range
+from ..curve import Curve, corrected
+from ..equations import SUCTION, system_at
+from ..follow import BRANCH_ENDS, NOTHING
+from ..locate import ARRIVED, ENDED, FOLD, PITCHFORK
+from ..solids import Solid
+from ..solids.edge import Edge
+from ..state import State, describe
+from .pieces import is_flat
+from .retold import retold
+from .search import Found, Indices, Question, anchor, lies_on, stable_at
+from .sideways import sideways_directions
+from .surfaces import Surface, shape_at, wetted_area
+from .travel import OFF, Journey, Leg, go_beyond, set_out, travel
+
+SPILLED = 4  # status: the liquid would run over the side of a disc
+
+_MISS_OF_SEPARATION = 1e-10  # over ℓ
+_BEYOND = 1e-6  # over the end of a branch, where another may go on
+_MOST_BRANCHES = 4
+_WIDEST = 0.2  # gap between flat faces where their curve begins, over the rupture distance
+_THREAD = 0.03  # thinnest circle of a drawn bridge over the widest of its branch
+
+
+class Answer(NamedTuple):
+    """A status, and a bridge if one was found."""
+
+    status: int
+    state: State | None = None
+
+
+_NOTHING, _FAILED, _SPILLED = Answer(NO_BRIDGE), Answer(FAILED), Answer(SPILLED)
+
+
+def holds_nothing(question: Question) -> bool:
+    """Whether no bridge is possible at any separation.
+
+    Without a pressure in the liquid a meridian turns outwards all along: the slopes at its ends have to add up to more
+    than nothing. On a tip they are the largest.
+    """
+    if question.control != SUCTION or question.value < 0.0:
+        return False
+    turn = 0.0
+    for body in (question.first, question.second):
+        surface = body[0].surface
+        if isinstance(surface, Edge):
+            return False
+        rise = shape_at(surface, 0.0)
+        turn += 0.5 * math.pi - surface.contact_angle - math.atan2(rise.sin_slope, rise.cos_slope)
+    return turn <= 1e-15
+
+
+def _is_plane(surface: Surface) -> bool:
+    return isinstance(surface, Solid) and surface.curvature == 0.0
+
+
+def _wetted(surface: Surface, radius: float, as_sphere: float) -> float:
+    return as_sphere if isinstance(surface, Solid | Edge) else wetted_area(surface, radius)
+
+
+def described(question: Question, on: Indices, z: Four, curve: Curve, unstable: int | None = None) -> Answer:
+    """A bridge as an answer, if it holds what it should and is one; ``unstable`` where its index is known."""
+    held = curve.held
+    state, is_bridge, miss = retold(describe)(z, held, curve.symmetric)
+    if not miss <= LARGEST_MISS:
+        return _FAILED
+    if not (is_bridge and lies_on(question, on, z)):
+        return _NOTHING
+    system = retold(system_at)(z, held, True, False)
+    slides = _is_plane(held.first) and _is_plane(held.second)
+    whole = state._replace(
+        wetted_area1=_wetted(held.first, state.radius1, state.wetted_area1),
+        wetted_area2=_wetted(held.second, state.radius2, state.wetted_area2),
+        sideways_stable=1.0 if slides or sideways_directions(z, system, held) == 0 else 0.0,
+    )
+    return Answer(FOUND, whole if unstable is None else whole._replace(unstable_directions=float(unstable)))
+
+
+def answer_to(question: Question, asked: int, separation: float, limit: int) -> Answer:
+    """The bridge, or the end of a branch, that a question asks for."""
+    if holds_nothing(question):
+        return _NOTHING
+    if asked == STABLE:
+        return _stable(question, separation, limit)
+    if asked == LOWER_END:
+        start = anchor(question)
+        return _FAILED if start is None else _end(question, _down(question, start[0], limit), 0.0)
+    last = _last(question, limit)
+    if last is None:
+        return _FAILED
+    top = last.top
+    if asked == RUPTURE:
+        return _end(question, top, math.inf)
+    if top.event not in (FOLD, PITCHFORK):
+        return _SPILLED if top.event == OFF else _FAILED
+    if separation >= top.stance.separation:
+        return _NOTHING
+    return _arrived(question, travel(question, go_beyond(question, top), separation, NOTHING), separation)
+
+
+def _stable(question: Question, separation: float, limit: int) -> Answer:
+    """The stable bridge at a separation, of several that of the least energy."""
+    answer = _least(question, stable_at(question, separation))
+    if answer.status == FOUND:
+        return answer
+    last = _last(question, limit)
+    if last is None:
+        answer = _least(question, stable_at(question, separation, thoroughly=True))
+        return answer if answer.status == FOUND else _FAILED
+    top, start, place = last
+    if separation >= top.stance.separation:
+        return _arrived(question, top, separation)
+    stance, curve = set_out(question, start, 1.0 if separation > place else -1.0)
+    return _arrived(question, travel(question, (stance, curve, start.on), separation, limit), separation)
+
+
+def _least(question: Question, bridges: Iterable[Found]) -> Answer:
+    """Of bridges that were found, that of the least energy."""
+    answers = [described(question, found.on, found.z, set_out(question, found, 1.0)[1]) for found in bridges]
+    energies = [(_energy(question, one.state), i) for i, one in enumerate(answers) if one.state is not None]
+    return answers[min(energies)[1]] if energies else _NOTHING
+
+
+def _energy(question: Question, state: State) -> float:
+    """Surface energy over γ against dry solids, and that of the pressure where it is held."""
+    cosines = [body[0].surface.cos_angle for body in (question.first, question.second)]
+    energy = state.area - cosines[0] * state.wetted_area1 - cosines[1] * state.wetted_area2
+    return energy + (state.curvature * state.volume if question.control == SUCTION else 0.0)
+
+
+class _Last(NamedTuple):
+    """The end of the last stable branch, and a bridge on that branch with its separation."""
+
+    top: Journey
+    start: Found
+    place: float
+
+
+def _last(question: Question, limit: int) -> _Last | None:
+    """Up to the end of the stable branch, and of those that go on beyond it; None if no stable bridge is known."""
+    known = anchor(question)
+    if known is None:
+        return None
+    last = _Last(_up(question, known[0], limit), *known)
+    for _ in range(_MOST_BRANCHES if limit == BRANCH_ENDS and last.top.event in (FOLD, PITCHFORK) else 0):
+        beyond = last.top.stance.separation * (1.0 + _BEYOND)
+        for found in stable_at(question, beyond):
+            further = _up(question, found, limit)
+            if further.event in (FOLD, PITCHFORK) and further.stance.separation >= beyond:
+                last = _Last(further, found, beyond)
+                break
+        else:
+            break
+    return last
+
+
+def _up(question: Question, found: Found, limit: int) -> Journey:
+    stance, curve = set_out(question, found, 1.0)
+    return travel(question, (stance, curve, found.on), math.nan, limit)
+
+
+def _down(question: Question, found: Found, limit: int, target: float = 0.0) -> Journey:
+    stance, curve = set_out(question, found, -1.0)
+    are_flat = is_flat(question.first) and is_flat(question.second)
+    return travel(question, (stance, curve, found.on), math.nan if are_flat and target == 0.0 else target, limit)
+
+
+def _arrived(question: Question, journey: Journey, separation: float) -> Answer:
+    """The bridge at a separation at which a journey arrived."""
+    stance = journey.stance
+    miss = abs(stance.separation - separation) * math.exp(-stance.z.log_length)
+    if journey.event == ARRIVED and miss > _MISS_OF_SEPARATION:
+        return _FAILED
+    if journey.event == ARRIVED or (journey.event in (FOLD, PITCHFORK) and miss <= MET):
+        return described(question, journey.on, stance.z, journey.curve, stance.unstable)
+    if journey.event == OFF:
+        return _SPILLED
+    return _NOTHING if journey.event in (FOLD, PITCHFORK, ENDED) else _FAILED
+
+
+def _end(question: Question, journey: Journey, contact: float) -> Answer:
+    """The end of a branch at which a journey arrived."""
+    if journey.event == ARRIVED and contact == 0.0:
+        return _NOTHING
+    if journey.event == OFF:
+        return _SPILLED
+    if journey.event not in (FOLD, PITCHFORK, ENDED):
+        return _FAILED
+    if journey.stance.separation < 0.0:
+        return _NOTHING
+    answer = described(question, journey.on, journey.stance.z, journey.curve, journey.stance.unstable)
+    if answer.state is not None and journey.event == FOLD and not journey.is_corner:
+        return answer._replace(state=answer.state._replace(stiffness=-math.inf if contact else math.inf))
+    return answer
+
+
+_Steps = list[tuple[Indices, Curve, Four, Four]]  # neighbours on curves
+
+
+def curve_of(question: Question, limit: int, points: int) -> list[Answer]:
+    """A whole curve: from contact, or the lower end, to the end of the stable branch, and down the unstable one."""
+    if holds_nothing(question):
+        return [_NOTHING] * points
+    start = anchor(question)
+    if start is None:
+        return [_FAILED] * points
+    found = start[0]
+    top = _up(question, found, limit)
+    if top.event not in (FOLD, PITCHFORK) or not top.stance.separation > 0.0:
+        return [_SPILLED if top.event == OFF else _NOTHING if top.event == ENDED else _FAILED] * points
+    are_flat = is_flat(question.first) and is_flat(question.second)
+    bottom = _down(question, found, limit, _WIDEST * top.stance.separation if are_flat else 0.0)
+    middle = points // 2
+    stable = _steps_back(bottom.legs) + _steps(top.legs)
+    answers = _spread(question, stable, middle, 0.0)
+    answers.append(_end(question, top, math.inf))
+    down = travel(question, go_beyond(question, top), 0.0, NOTHING)
+    answers += _spread(question, _thinning(_steps(down.legs)), points - middle - 1, 1.0)
+    first = answers[0].state
+    if bottom.event == ARRIVED and not are_flat and first is not None:
+        answers[0] = answers[0]._replace(state=first._replace(separation=0.0))  # which is met to rounding
+    return answers
+
+
+def _steps(legs: list[Leg]) -> _Steps:
+    """Pairs of neighbours along a way."""
+    return [
+        (leg.on, leg.curve, Four(*leg.nodes[i].tolist()), Four(*leg.nodes[i + 1].tolist()))
+        for leg in legs
+        for i in range(len(leg.nodes) - 1)
+    ]
+
+
+def _steps_back(legs: list[Leg]) -> _Steps:
+    return [(on, curve, after, before) for on, curve, before, after in reversed(_steps(legs))]
+
+
+def _thinning(steps: _Steps) -> _Steps:
+    """The first steps of an unstable branch, up to a thread of liquid."""
+    widest = 0.0
+    for i, (_on, curve, z, _after) in enumerate(steps):
+        least, most = retold(radius_range)(z, retold(system_at)(z, curve.held, False, False))
+        widest = max(widest, most)
+        if least < _THREAD * widest and i > 1:
+            return steps[:i]
+    return steps
+
+
+def _spread(question: Question, steps: _Steps, count: int, skipped: float) -> list[Answer]:
+    """Bridges evenly spread over steps, without the last of them or, ``skipped``, without the first."""
+    if not steps:
+        return [_NOTHING] * count
+    answers = []
+    for i in range(count):
+        place = len(steps) * (i + skipped) / count
+        step = min(int(place), len(steps) - 1)
+        on, curve, before, after = steps[step]
+        way = moved(after, -1.0, before)
+        z = moved(before, place - step, way)
+        if 0.0 < place - step < 1.0:
+            z = retold(corrected)(z, curve, unit_vector(way))[0]
+        answers.append(described(question, on, z, curve))
+    return answers
