@@ -64,10 +64,15 @@ def skip_fields(app: Sphinx, what: str, name: str, thing: object, skip: bool, op
     return True if getattr(thing, "__doc__", None) and thing.__doc__.startswith("Alias for field number") else None
 
 
+def opening(picture: re.Match[str]) -> str:
+    """A picture that opens by itself, unless it leads elsewhere already."""
+    return picture[0] if picture[1] else f'<a class="picture" href="{picture[2]}">{picture[0]}</a>'
+
+
 def finish(app: Sphinx, page: str, template: str, context: dict, doctree: object) -> None:
     """Let a picture open by itself, to be seen larger, and give citations the numbers that numpydoc hides."""
     if "body" in context:
-        body = re.sub(r'<img\b[^>]*\bsrc="([^"]*)"[^>]*>', r'<a class="picture" href="\1">\g<0></a>', context["body"])
+        body = re.sub(r'(<a\b[^>]*>\s*)?<img\b[^>]*\bsrc="([^"]*)"[^>]*>', opening, context["body"])
         context["body"] = re.sub(r"\[R[0-9a-f]{12}-(\d+)\]", r"[\1]", body)
 
 

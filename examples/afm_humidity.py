@@ -9,12 +9,12 @@ import warnings
 from pathlib import Path
 
 import numpy as np
-from matplotlib import rc_context
-from matplotlib.figure import Figure
 
 import pendular as pl
 from pendular.ask.liquid import DOUBTFUL_CURVATURE_RADIUS as DOUBTFUL
-from pendular.ground.colours import ACCENT, FAINT, HAIR, LIQUID, LIQUID_EDGE
+from pendular.ground.colours import FAINT, LIQUID
+from pendular.ground.look import HELD, TITLE, panels
+from pendular.show.picture import save
 
 TIP = pl.Pair(radius=(20e-9, np.inf), contact_angle=(np.deg2rad(10), np.deg2rad(40)))
 WATER = pl.Liquid.water(temperature=293.15)
@@ -36,33 +36,28 @@ def report() -> None:
 
 def draw(path: Path) -> None:
     """Draw the force against the gap at each humidity, and at contact against the humidity."""
-    with rc_context({"axes.spines.top": False, "axes.spines.right": False, "svg.fonttype": "path"}):
-        drawing = Figure(figsize=(5.2, 6.8), layout="constrained")
-        upper, lower = drawing.subplots(2, 1)
+    drawing, (upper, lower) = panels(2.9, 2.6)
     curve = pl.curve(TIP, humidity=HUMIDITY, liquid=WATER, points=201)
     for i, humidity in enumerate(HUMIDITY):
         on = curve.stable[i]
-        upper.plot(1e9 * curve.separation[i, on], 1e9 * curve.force[i, on], color=LIQUID_EDGE, lw=1 + i / 3)
+        upper.plot(1e9 * curve.separation[i, on], 1e9 * curve.force[i, on], color=HELD["humidity"], lw=1 + i / 3)
         gap, force = 1e9 * curve.separation[i, on][-1], 1e9 * curve.force[i, on][-1]
-        shift = -8 if i == 0 else 0  # the first two end close together
-        upper.annotate(f"{humidity:.0%}", (gap, force), (shift, -11), textcoords="offset points", ha="center", size=8)
-    upper.set(xlabel="gap (nm)", ylabel="force (nN)", ylim=(0, None), title="A tip of 20 nm pulled off a plate")
+        below = -21 if i == 1 else -11  # the first ones end close together
+        upper.annotate(f"{humidity:.0%}", (gap, force), (0, below), textcoords="offset points", ha="center", size=9)
+    upper.set(xlabel="gap (nm)", ylabel="force (nN)", ylim=(-0.8, None))
+    upper.set_title("A tip of 20 nm pulled off a plate", **TITLE)
     many = np.linspace(0.4, 0.95, 56)
     contact = pl.bridge(TIP, 0.0, humidity=many, liquid=WATER)
     radius = WATER.surface_tension / contact.suction
-    lower.plot(100 * many, 1e9 * contact.force, color=ACCENT)
+    lower.plot(100 * many, 1e9 * contact.force, color=HELD["humidity"], lw=2)
     trusted = 100 * np.interp(DOUBTFUL, radius, many)
     lower.axvspan(40, trusted, color=LIQUID, alpha=0.35, lw=0)
     lower.annotate(
         "meniscus below 4 nm:\ncontinuum doubtful", (41, 0.06 * 1e9 * contact.force.max()), size=9, color=FAINT
     )
-    lower.set(
-        xlabel="relative humidity (%)", ylabel="force (nN)", ylim=(0, None), xlim=(40, 95), title="Force at contact"
-    )
-    for axes in (upper, lower):
-        axes.title.set_size(10)
-        axes.grid(color=HAIR, alpha=0.25, lw=0.6)
-    drawing.savefig(path)
+    lower.set(xlabel="relative humidity (%)", ylabel="force (nN)", ylim=(0, None), xlim=(40, 95))
+    lower.set_title("Force at contact", **TITLE)
+    save(drawing, path)
 
 
 if __name__ == "__main__":

@@ -10,11 +10,11 @@ import warnings
 from pathlib import Path
 
 import numpy as np
-from matplotlib import rc_context
-from matplotlib.figure import Figure
 
 import pendular as pl
-from pendular.ground.colours import ACCENT, FAINT, HAIR, LIQUID, LIQUID_EDGE
+from pendular.ground.colours import ACCENT, FAINT, LIQUID
+from pendular.ground.look import HELD, TITLE, panels
+from pendular.show.picture import save
 
 RADIUS = 37e-6
 GRAINS = pl.Pair(radius=RADIUS, contact_angle=0.0)
@@ -52,34 +52,31 @@ def pendular_from() -> float:
 def draw(path: Path) -> None:
     """Draw force and rupture distance against the suction."""
     suction = np.geomspace(1e3, 1e6, 121)
-    with rc_context({"axes.spines.top": False, "axes.spines.right": False, "svg.fonttype": "path"}):
-        drawing = Figure(figsize=(5.2, 6.8), layout="constrained")
-        upper, lower = drawing.subplots(2, 1)
+    drawing, (upper, lower) = panels(2.9, 2.7)
     gaps = (0.0, 0.1e-6, 1e-6, 5e-6)
     for gap, width in zip(gaps, (2.4, 1.8, 1.3, 0.9), strict=True):
         bridge = pl.bridge(GRAINS, gap, suction=suction, liquid=WATER)
         held = np.where(bridge.exists, 1e6 * bridge.force, np.nan)
-        upper.semilogx(1e-3 * suction, held, color=LIQUID_EDGE, lw=width)
+        upper.semilogx(1e-3 * suction, held, color=HELD["suction"], lw=width)
         last = np.flatnonzero(bridge.exists)[-1]
         spot = (1e-3 * suction[last], held[last])
         label = "touching" if gap == 0.0 else f"{1e6 * gap:g} µm"
-        upper.annotate(label, spot, (-4, 5 if gap == 0.0 else -10), textcoords="offset points", ha="right", size=8)
-    upper.set(ylabel="force (µN)", ylim=(0, 18), title="Force at four gaps, each line to where the bridge breaks")
+        upper.annotate(label, spot, (-4, 5 if gap == 0.0 else -10), textcoords="offset points", ha="right", size=9)
+    upper.set(ylabel="force (µN)", ylim=(0, 18))
+    upper.set_title("Force at four gaps, each until it breaks", **TITLE)
     exact = pl.rupture(GRAINS, suction=suction, liquid=WATER).separation
     fit = pl.rupture(GRAINS, suction=suction, liquid=WATER, method="zhao2020").separation
-    lower.loglog(1e-3 * suction, 1e6 * exact, color=LIQUID_EDGE, lw=2.4, label="exact")
+    lower.loglog(1e-3 * suction, 1e6 * exact, color=HELD["suction"], lw=2.4, label="exact")
     lower.loglog(1e-3 * suction, 1e6 * fit, color=ACCENT, lw=1.2, ls="--", label="zhao2020")
-    lower.set(ylabel="rupture distance (µm)", title="Rupture distance")
-    lower.legend(frameon=False)
+    lower.set(ylabel="rupture distance (µm)")
+    lower.legend(frameon=False, fontsize=9)
     lower.yaxis.set_major_formatter("{x:g}")
     for axes in (upper, lower):
         axes.axvspan(1, 1e-3 * pendular_from(), color=LIQUID, alpha=0.35, lw=0)
         axes.set(xlabel="suction (kPa)", xlim=(1, 1000))
         axes.xaxis.set_major_formatter("{x:g}")
-        axes.title.set_size(10)
-        axes.grid(color=HAIR, alpha=0.25, lw=0.6)
     upper.annotate("neighbours\nmerged", (1.15, 1.0), size=9, color=FAINT)
-    drawing.savefig(path)
+    save(drawing, path)
 
 
 if __name__ == "__main__":

@@ -10,17 +10,17 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from matplotlib import rc_context
-from matplotlib.figure import Figure
 
 import pendular as pl
-from pendular.ground.colours import ACCENT, HAIR, INK, LIQUID_EDGE
+from pendular.ground.colours import INK
+from pendular.ground.look import HELD, panels
+from pendular.show.picture import save
 
 ANGLE, WATER = np.deg2rad(20), pl.Liquid.water(temperature=293.15)
 HEAP = pl.random_packing(200, 50e-6, friction=0.5)
 FIRST = pl.wet(HEAP, ANGLE, saturation=0.02, liquid=WATER, path="wetting")
 STRETCHES = np.concatenate([np.linspace(0.0, 0.2, 17), np.linspace(0.2, 0.0, 17)[1:]])
-HELD = {
+WAYS = {
     "common suction held": {"suction": FIRST.suction},
     "all liquid held": {"liquid_volume": FIRST.liquid_volume},
     "each bridge keeps its own": {"volume": 0.0},
@@ -52,24 +52,21 @@ def report(pulls: dict[str, np.ndarray]) -> None:
 
 def draw(pulls: dict[str, np.ndarray], path: Path) -> None:
     """Draw stress and bridges against the stretch."""
-    with rc_context({"axes.spines.top": False, "axes.spines.right": False, "svg.fonttype": "path"}):
-        drawing = Figure(figsize=(5.2, 5.8), layout="constrained")
-        panels = drawing.subplots(2, 1, sharex=True)
-    for (name, found), colour in zip(pulls.items(), (LIQUID_EDGE, ACCENT, INK), strict=True):
+    drawing, rows = panels(2.6, 2.4, share_x=True)
+    for (name, found), colour in zip(pulls.items(), (HELD["suction"], INK, HELD["volume"]), strict=True):
         turn = len(STRETCHES) // 2 + 1
-        for axes, values in zip(panels, (found[:, 0] / 1e3, found[:, 1] / HEAP.count), strict=True):
+        for axes, values in zip(rows, (found[:, 0] / 1e3, found[:, 1] / HEAP.count), strict=True):
             axes.plot(100 * STRETCHES[:turn], values[:turn], color=colour, lw=1.8, label=name)
             axes.plot(100 * STRETCHES[turn - 1 :], values[turn - 1 :], color=colour, lw=1.2, ls="--")
-    for axes, label in zip(panels, ("stress in this direction, kPa", "bridges over grains"), strict=True):
+    for axes, label in zip(rows, ("stress (kPa)", "bridges over grains"), strict=True):
         axes.set(ylabel=label, ylim=(0, None))
-        axes.grid(color=HAIR, alpha=0.25, lw=0.6)
-    panels[1].set(xlabel="stretch, %; dashed: pushed back")
-    panels[0].legend(frameon=False, fontsize=9)
-    drawing.savefig(path)
+    rows[1].set(xlabel="stretch (%); dashed: pushed back")
+    rows[0].legend(frameon=False, fontsize=9)
+    save(drawing, path)
 
 
 if __name__ == "__main__":
-    PULLS = {name: pull(held) for name, held in HELD.items()}
+    PULLS = {name: pull(held) for name, held in WAYS.items()}
     report(PULLS)
     if len(sys.argv) > 1:
         draw(PULLS, Path(sys.argv[1]))

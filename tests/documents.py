@@ -48,8 +48,12 @@ def assert_python_prints_what_it_says(text: str) -> None:
 
 
 def command_output(command: str) -> tuple[int, str, str]:
-    """Exit status, output and errors of a ``pendular ...`` in this process."""
+    """Exit status, output and errors of a ``pendular ...`` or ``python examples/...`` in this process."""
     program, *arguments = shlex.split(command)
+    if program == "python":
+        with contextlib.redirect_stdout(io.StringIO()) as output, contextlib.redirect_stderr(io.StringIO()) as errors:
+            run_script(ROOT / arguments[0], arguments[1:])
+        return 0, output.getvalue(), errors.getvalue()
     assert program == "pendular"
     with contextlib.redirect_stdout(io.StringIO()) as output, contextlib.redirect_stderr(io.StringIO()) as errors:
         try:

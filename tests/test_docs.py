@@ -41,7 +41,15 @@ ELSEWHERE = {
 }
 OWN = [name for name in PAGES if name not in ELSEWHERE]
 GROUPS = {"lammps.md": "lammps", "howto/own_data.md": "data", "howto/mesh.md": "grains"}  # what their code needs
-LONG = ("lammps.md", "howto/packings.md")
+LONG = (
+    "lammps.md",
+    "howto/packings.md",
+    "gallery/retention.md",
+    "gallery/sand_castle.md",
+    "gallery/stretched_heap.md",
+)
+ONLY_PICTURES = {"gallery/pictures.md"}
+DRAWN_BEFOREHAND = {"gallery/wet_shear.md", "gallery/two_codes.md"}  # by tests/test_lammps_examples.py
 
 
 def marks_of(name: str) -> list[pytest.MarkDecorator]:
@@ -76,6 +84,28 @@ def test_every_code_block_has_a_language_that_is_run(name):
     languages = {block.language for block in code_blocks(text_of(name))}
     assert languages <= {"python", "console", "sh", "text"}
     assert text_of(name).count("\n```\n") >= len(code_blocks(text_of(name)))
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_no_line_is_lost_as_a_comment(name):
+    assert not re.search(r"^ *%", re.sub(r"```.*?```", "", text_of(name), flags=re.DOTALL), re.MULTILINE)
+
+
+@pytest.mark.parametrize("name", [name for name in PAGES if name.startswith("gallery/") and name not in ONLY_PICTURES])
+def test_a_worked_problem_has_an_answer_numbers_a_picture_and_a_script(name):
+    text = text_of(name)
+    (script, *_) = re.findall(r"\{literalinclude\} \.\./\.\./(examples/\w+\.py)", text)
+    assert (ROOT / script).is_file()
+    assert re.search(r"!\[[^]]+\]\(\.\./(made|images)/\w+\.svg\)", text)
+    assert f"gallery/{Path(name).name}" in text_of("gallery.md")
+    if name not in DRAWN_BEFOREHAND:
+        assert "## In words" in text
+        assert "| | value | source |" in text
+        assert f"$ python {script}\n" in text  # run, and its output compared, by the test of the page
+
+
+def test_the_gallery_has_ten_worked_problems():
+    assert sum(name.startswith("gallery/") for name in PAGES) - len(ONLY_PICTURES | DRAWN_BEFOREHAND) >= 10
 
 
 def test_a_wrong_promise_is_found():

@@ -62,13 +62,18 @@ def shell_commands(text: str) -> list[str]:
 
 def drawing_commands(text: str) -> list[str]:
     """Return the commands of a page that draw a picture which the page shows."""
-    return [line for line in shell_commands(text) if f"({shlex.split(line)[-1]})" in text]
+    return [line for line in shell_commands(text) if is_shown(shlex.split(line)[-1], text)]
+
+
+def is_shown(picture: str, text: str) -> bool:
+    """Whether a page, of ``docs`` or of a folder below, shows a picture."""
+    return f"({picture})" in text or f"(../{picture})" in text
 
 
 def stacking_commands(text: str) -> list[tuple[str, str]]:
     """Return the commands of a page whose picture it shows stacked as well, for a phone, and the path of that."""
     found = [(line, f"made/{Path(shlex.split(line)[-1]).stem}_stacked.svg") for line in shell_commands(text)]
-    return [(command, picture) for command, picture in found if f"({picture})" in text]
+    return [(command, picture) for command, picture in found if is_shown(picture, text)]
 
 
 def draw_stacked(command: str, picture: str) -> None:

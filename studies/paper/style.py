@@ -12,7 +12,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from pendular.ground.colours import ACCENT, FAINT, HAIR, INK
+from pendular.ground import look
+from pendular.ground.colours import ACCENT, INK
 
 Floats = NDArray[np.float64]
 Place = Literal["best", "lower left", "lower right", "center right", "upper right"]
@@ -41,12 +42,10 @@ def panels(
 
 def dress(axes: Axes, x: str, y: str, *, x_scale: str = "linear") -> None:
     """Labels and quiet axes."""
+    look.dress(axes)
     axes.set_xlabel(x, color=INK, size=11)
     axes.set_ylabel(y, color=INK, size=11)
     axes.set_xscale(x_scale)
-    axes.spines[["top", "right"]].set_visible(False)
-    axes.spines[["left", "bottom"]].set(color=HAIR, lw=0.8)
-    axes.tick_params(which="both", labelcolor=FAINT, labelsize=9, color=HAIR, width=0.8, length=3)
     if x_scale == "linear":
         axes.locator_params(axis="x", nbins=6)
         axes.ticklabel_format(axis="x", scilimits=(-2, 4), useMathText=True)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..ground.colours import FAINT, GRAIN, GRAIN_EDGE, HAIR, INK, LIQUID
+from ..ground.look import dress
 from ..ground.units import Scale, scale_of, show
 from ..laws import laws
 from .error_maps import ErrorMap
@@ -84,9 +85,7 @@ def _dress(axes: Axes, comparison: Comparison, gap: Scale) -> None:
     end = float(comparison.separation[-1]) * gap.factor
     axes.set_xlim(0.0, _WIDEST * end)
     axes.axvline(end, color=HAIR, lw=0.8, ls=(0, (4, 3)), zorder=1)
-    axes.spines[["top", "right"]].set_visible(False)
-    axes.spines[["left", "bottom"]].set(color=HAIR, lw=0.8)
-    axes.tick_params(labelcolor=FAINT, labelsize=9, width=0.8, length=3, color=HAIR)
+    dress(axes)
 
 
 def _draw_forces(axes: Axes, comparison: Comparison, gap: Scale) -> None:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..ground.colours import ACCENT, FAINT, HAIR, INK, LIQUID, LIQUID_EDGE
+from ..ground.look import COLUMN, dress
 from ..ground.units import Scale, scale_of
 from .words import value_words
 
@@ -22,6 +24,9 @@ __all__ = ["fit_figure"]
 
 Floats = NDArray[np.float64]
 
+_WIDTH, _CURVE, _RESIDUALS = COLUMN, 2.9, 1.6  # in, of the picture and of its two panels
+_TITLE, _LINE, _LETTERS = 0.47, 0.18, 60  # in, of the title and of a line below it; letters of that
+_ROW, _IN_A_ROW = 0.62, 3  # in, of a row of numbers; numbers in it
 _FINE = 400  # points of the line
 _BEFORE_RUPTURE = 1e-4  # root of the way before rupture, over the curve, to which a line goes
 _BEYOND = 0.04  # of the picture to the right of rupture
@@ -44,25 +49,27 @@ def fit_figure(fit: Fit, *, title: str = "", subtitle: str = "") -> Figure:
     """
     from matplotlib.figure import Figure
 
-    drawing = Figure(figsize=(7.6, 5.2), facecolor="white")
-    upper = drawing.add_axes((0.11, 0.36, 0.63, 0.52 if title else 0.6))
-    lower = drawing.add_axes((0.11, 0.11, 0.63, 0.2), sharex=upper)
-    drawing.text(0.03, 0.955, title, size=12, weight="bold", color=INK, va="center")
-    drawing.text(0.03, 0.91, subtitle, size=9, color=FAINT, va="center")
+    told = textwrap.wrap(subtitle, _LETTERS)
+    above = _TITLE + _LINE * len(told) if title else 0.1
+    head = above + _ROW * math.ceil(len(fit.free) / _IN_A_ROW)
+    height = head + _CURVE + _RESIDUALS
+    drawing = Figure(figsize=(_WIDTH, height), facecolor="white")
+    upper = drawing.add_axes((0.135, (_RESIDUALS + 0.05) / height, 0.84, (_CURVE - 0.25) / height))
+    lower = drawing.add_axes((0.135, 0.45 / height, 0.84, (_RESIDUALS - 0.55) / height), sharex=upper)
+    drawing.text(0.03, 1.0 - 0.2 / height, title, size=10.5, weight="bold", color=INK, va="center")
+    drawing.text(0.03, 1.0 - 0.35 / height, "\n".join(told), size=9, color=FAINT, va="top")
     length = scale_of(float(np.max(np.abs(fit.separation))), "m")
     strength = scale_of(float(np.max(np.abs(fit.force))), "N")
     _draw_curve(upper, fit, length, strength)
     _draw_residuals(lower, fit, length)
-    _write_numbers(drawing, fit, 0.88 if title else 0.96)
+    _write_numbers(drawing, fit, above)
     upper.tick_params(labelbottom=False)
     lower.set_xlabel(f"separation as measured ({length.unit})", color=FAINT)
     return drawing
 
 
 def _frame(axes: Axes) -> None:
-    axes.spines[["top", "right"]].set_visible(False)
-    axes.spines[["left", "bottom"]].set(color=HAIR, lw=0.8)
-    axes.tick_params(labelcolor=FAINT, labelsize=9, width=0.8, length=3, color=HAIR)
+    dress(axes)
     axes.axhline(0.0, color=HAIR, lw=0.6, zorder=1)
 
 
@@ -126,11 +133,12 @@ def _draw_residuals(axes: Axes, fit: Fit, length: Scale) -> None:
 
 
 def _write_numbers(drawing: Figure, fit: Fit, top: float) -> None:
-    """The values with their errors, one under the other on the right."""
-    height = top
-    for name in fit.free:
+    """The values with their errors, side by side above the curve, from a distance to the upper edge, [in]."""
+    height = drawing.get_figheight()
+    for i, name in enumerate(fit.free):
         value, error = value_words(fit, name)
-        drawing.text(0.78, height, name.replace("_", " "), size=9, color=FAINT, va="top")
-        drawing.text(0.78, height - 0.038, value, size=10.5, weight="bold", color=INK, va="top")
-        drawing.text(0.78, height - 0.08, error, size=9, color=FAINT, va="top")
-        height -= 0.135
+        row, column = divmod(i, _IN_A_ROW)
+        x, y = 0.03 + column / _IN_A_ROW, top + _ROW * row
+        drawing.text(x, 1.0 - y / height, name.replace("_", " "), size=9, color=FAINT, va="top")
+        drawing.text(x, 1.0 - (y + 0.17) / height, value, size=10.5, weight="bold", color=INK, va="top")
+        drawing.text(x, 1.0 - (y + 0.37) / height, error, size=9, color=FAINT, va="top")

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..ground.colours import ACCENT, FAINT, GRAIN, HAIR, INK, LIQUID_EDGE
+from ..ground.look import dress
 from ..ground.units import scale_of, show
 from .rendering import image_of, view_of
 from .retention import Retention, Walk
@@ -63,9 +64,7 @@ def draw_retention(curves: Retention, title: str = "", subtitle: str = "") -> Fi
     right.set_ylim(bottom=0.0)
     _mark_limit(left, below, right, curves, scale.factor)
     for axes in (left, below, right):
-        axes.spines[["top", "right"]].set_visible(False)
-        axes.grid(visible=True, which="major", color=HAIR, alpha=0.25, linewidth=0.6)
-        axes.tick_params(colors=FAINT, labelsize=9)
+        dress(axes)
     left.legend(frameon=False, fontsize=9, loc="lower left")
     figure.text(0.015, 0.95, title, color=INK, fontsize=12, weight="bold", va="center")
     figure.text(0.015, 0.895, subtitle, color=FAINT, fontsize=9, va="center")

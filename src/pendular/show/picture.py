@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..ask.face import Bridge, Pair
 from ..ground.colours import ACCENT, FAINT, GRAIN, GRAIN_EDGE, HAIR, INK, LIQUID, LIQUID_EDGE
 from ..ground.files import whole
+from ..ground.look import dress
 from ..ground.units import Scale, scale_of, show
 from .scene import ASPECT, Scene, Window, far_window, mirrored, near_window, outline_of, round_length, scene_of
 
@@ -288,9 +289,7 @@ def _scales(curve: Bridge, separation: float) -> tuple[Scale, Scale]:
 def _frame(axes: Axes, x: Floats, y: Floats) -> None:
     """Limits around the curve and the zeros, with room for labels on the right."""
     left, right, low, high = min(0.0, x.min()), x.max(), min(0.0, y.min()), max(0.0, y.max())
-    axes.spines[["top", "right"]].set_visible(False)
-    axes.spines[["left", "bottom"]].set(color=HAIR, lw=0.8)
-    axes.tick_params(labelcolor=FAINT, labelsize=9, width=0.8, length=3, color=HAIR)
+    dress(axes)
     axes.locator_params(nbins=6)
     axes.set_xlim(1.08 * left, right + 0.28 * (right - left))
     axes.set_ylim(low - 0.04 * (high - low), high + 0.08 * (high - low))
