@@ -40,6 +40,7 @@ html_static_path = ["static"]
 html_css_files = ["site.css"]
 html_copy_source = False
 html_show_sphinx = False
+html_show_search_summary = False  # it would ask for the pages found, which a browser grants no file
 html_theme_options = {
     "light_css_variables": {"color-brand-primary": "#15607a", "color-brand-content": "#15607a"},
     "dark_css_variables": {"color-brand-primary": "#7cc4dd", "color-brand-content": "#7cc4dd"},

@@ -176,6 +176,29 @@ def test_a_page_that_loads_from_elsewhere_is_found():
     assert site.loaded_from_outside('<a href="https://host"><img src="made/x.svg">') == []
 
 
+@pytest.mark.needs("docs")
+def test_a_link_that_leads_nowhere_is_found(tmp_path):
+    from tools import site
+
+    (tmp_path / "a").mkdir()
+    (tmp_path / "x.svg").touch()
+    (tmp_path / "b.html").write_text(
+        '<p id="here"><a href="#here"></a><a href="#there"></a><a href="a/c.html#far"></a>'
+    )
+    (tmp_path / "a" / "c.html").write_text(
+        '<p id="far"><img src="../x.svg"><img src="x.svg"><a href="../b.html#near"></a><a href="https://doi.org/10.1/x"></a>'
+        '<a href="../../outside.html"></a><a href="mailto:a@b.c"></a>'
+    )
+    links = {path: site.Links(path.read_text()) for path in tmp_path.glob("**/*.html")}
+    assert sorted(site.broken_links(tmp_path, links)) == [
+        "a/c.html: ../../outside.html is not there",
+        "a/c.html: ../b.html#near has no such place",
+        "a/c.html: x.svg is not there",
+        "b.html: #there has no such place",
+    ]
+    assert site.links_outside(tmp_path, links) == {"https://doi.org/10.1/x": {"a/c.html"}}
+
+
 def test_pages_name_no_address_outside_and_no_missing_file():
     for name, path in PAGES.items():
         for target in re.findall(

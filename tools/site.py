@@ -1,14 +1,39 @@
-"""Build the site and see that its pages load nothing from elsewhere: ``python -m tools.site [folder]``."""
+"""Build the site and check its pages: ``python -m tools.site [folder]``.
+
+They load nothing from elsewhere, and every link within the site leads to a page, a file or a place on a page. Addresses
+outside are listed in ``links.txt`` beside the site, with the pages that name them; nothing is asked of the network.
+"""
 
 import re
 import sys
 import time
+from collections import defaultdict
+from html.parser import HTMLParser
 from pathlib import Path
+from urllib.parse import unquote, urlsplit
 
 from sphinx.cmd.build import build_main
 
 ROOT = Path(__file__).parents[1]
 LOADED = re.compile(r"<(?:script|link|img|iframe)\b[^>]*\b(?:src|href)=\"((?:https?:)?//[^\"]*)")
+
+
+class Links(HTMLParser):
+    """What a page links to or shows, and the places on it that can be linked to."""
+
+    def __init__(self, html: str) -> None:
+        super().__init__()
+        self.targets: set[str] = set()
+        self.places: set[str] = set()
+        self.feed(html)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        """Take the addresses and the name of an element."""
+        for name, value in attrs:
+            if value and name == "id":
+                self.places.add(value)
+            elif value and (name == "href" or (name == "src" and tag in ("img", "script", "iframe"))):
+                self.targets.add(value)
 
 
 def main(folder: Path) -> int:
@@ -19,15 +44,53 @@ def main(folder: Path) -> int:
     )
     if status:
         return status
-    pages = sorted(folder.glob("**/*.html"))
-    outside = [f"{page.name}: {address}" for page in pages for address in loaded_from_outside(page.read_text("utf-8"))]
-    print("\n".join(outside) or f"{len(pages)} pages in {time.perf_counter() - started:.0f} s: {folder}/index.html")  # noqa: T201
-    return len(outside)
+    pages = {path: path.read_text("utf-8") for path in sorted(folder.glob("**/*.html"))}
+    wrong = [f"{path.name} loads {address}" for path, html in pages.items() for address in loaded_from_outside(html)]
+    links = {path: Links(html) for path, html in pages.items()}
+    wrong += broken_links(folder, links)
+    outside = links_outside(folder, links)
+    lines = [f"{address}  {' '.join(sorted(naming))}" for address, naming in sorted(outside.items())]
+    (folder.parent / "links.txt").write_text("\n".join([*lines, ""]), encoding="utf-8")
+    told = f"{len(pages)} pages in {time.perf_counter() - started:.0f} s, {len(outside)} links outside"
+    print("\n".join(wrong) or f"{told}: {folder}/index.html")  # noqa: T201
+    return min(len(wrong), 1)
 
 
 def loaded_from_outside(html: str) -> list[str]:
     """Addresses that a page makes a browser load from the network."""
     return LOADED.findall(html)
+
+
+def broken_links(folder: Path, links: dict[Path, Links]) -> list[str]:
+    """Links of pages that lead to no file of the site, or to no place on its page."""
+    wrong = []
+    for path, page in links.items():
+        for target in sorted(page.targets):
+            parts = urlsplit(target)
+            if parts.scheme or parts.netloc:
+                continue
+            file = path.parent / unquote(parts.path) if parts.path else path
+            file = file.resolve()
+            place = unquote(parts.fragment)
+            if not file.is_file() or not file.is_relative_to(folder.resolve()):
+                wrong.append(f"{path.relative_to(folder)}: {target} is not there")
+            elif (
+                place
+                and file.suffix == ".html"
+                and place not in links[folder / file.relative_to(folder.resolve())].places
+            ):
+                wrong.append(f"{path.relative_to(folder)}: {target} has no such place")
+    return wrong
+
+
+def links_outside(folder: Path, links: dict[Path, Links]) -> dict[str, set[str]]:
+    """Addresses outside of the site, each with the pages that name it."""
+    found: dict[str, set[str]] = defaultdict(set)
+    for path, page in links.items():
+        for target in page.targets:
+            if urlsplit(target).scheme in ("http", "https"):
+                found[target].add(str(path.relative_to(folder)))
+    return found
 
 
 if __name__ == "__main__":
