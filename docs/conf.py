@@ -79,9 +79,10 @@ def finish(app: Sphinx, page: str, template: str, context: dict, doctree: object
 
 def setup(app: Sphinx) -> None:
     """Have the pictures and tables of the site made before its pages are read."""
-    from tools.site_parts import make
+    from tools.site_parts import make, write_explorer
 
     app.connect("builder-inited", lambda app: make(Path(app.srcdir)))
+    app.connect("build-finished", lambda app, error: None if error else write_explorer(Path(app.outdir) / "explore"))
     app.connect("autodoc-process-docstring", keep_initials, priority=900)  # after numpydoc
     app.connect("autodoc-process-docstring", tell_variable, priority=900)
     app.connect("autodoc-skip-member", skip_fields)

@@ -31,7 +31,7 @@ ELSEWHERE = {
     "yade.md": "test_yade.py",
     "yade_engine.md": "test_yade_engine.py",
     "other_codes.md": "test_other_codes.py",
-    "explorer.md": "test_web_page.py",
+    "explorer.md": "test_explorer_page.py",
     "speed.md": "test_table.py",
     "c_header.md": "test_c_header.py",
     "c_library.md": "test_c_library.py",

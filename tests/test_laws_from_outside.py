@@ -1,6 +1,5 @@
 """A law from outside, registered or brought by an installed package, is seen wherever laws are."""
 
-import asyncio
 import json
 import math
 import os
@@ -202,25 +201,6 @@ def test_in_the_documents(outside):
     assert "| [`smith2030`](laws/smith2030.md) | volume |" in law_pages.page()
     assert law_pages.law_page(laws["smith2030"]).startswith("# smith2030\n")
     assert ".. autofunction:: smith_laws.force_star" in list(site_parts.law_functions())
-
-
-@pytest.mark.needs("page")
-def test_on_the_page(outside, monkeypatch):
-    from nicegui import Client, core, ui
-
-    from pendular.front.explorer.page import Explorer
-
-    async def lay_out():
-        monkeypatch.setattr(core, "loop", asyncio.get_running_loop())
-        with Client(ui.page("/laws")) as client:
-            Explorer({"radius": "50um", "volume": "1pL", "separation": "3um", "laws": "smith2030"})
-            return list(client.elements.values())
-
-    elements = asyncio.run(lay_out())
-    assert [tick.text for tick in elements if isinstance(tick, ui.checkbox) and tick.value] == ["smith2030"]
-    assert "Law of Smith. A. Smith, Journal of Bridges 1 (2030) 1" in [getattr(one, "text", "") for one in elements]
-    (chart,) = [one for one in elements if isinstance(one, ui.plotly)]
-    assert [line["name"] for line in chart.figure["data"] if "name" in line] == ["smith2030"]
 
 
 def test_its_help_is_completed(outside):

@@ -23,6 +23,7 @@ from pendular.ask.result import FIELDS
 from pendular.comparison.measured import measured_errors
 from pendular.front.cli import app
 from pendular.front.cli import main as pendular
+from pendular.front.explorer.files import write_page
 from pendular.front.options import read_question
 from pendular.ground.units import read
 from pendular.laws import laws
@@ -52,6 +53,15 @@ def make(docs: Path) -> None:
                 run(command)
             for command, picture in stacking_commands(text):
                 draw_stacked(command, picture)
+
+
+def write_explorer(folder: Path) -> None:
+    """Write the explorer page beside the others; a remark in its place where the solver cannot be made."""
+    try:
+        write_page(folder)
+    except ValueError as error:
+        folder.mkdir(exist_ok=True)
+        (folder / "index.html").write_text(f"<!doctype html><title>Pendular explorer</title><p>{error}", "utf-8")
 
 
 def shell_commands(text: str) -> list[str]:

@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from ._app import app, need_extra
+from ._app import app, compiling_shown
 
 __all__ = ["explore"]
 
@@ -15,8 +15,8 @@ def explore(
     host: Annotated[str, typer.Option(help="Address to listen on; by default of this machine only.")] = "127.0.0.1",
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in a browser.")] = True,
 ) -> None:
-    """A page with sliders: the pair drawn to scale, its curves, its numbers."""
-    need_extra("web", "nicegui")
+    """A page with sliders, which computes in the browser: the pair drawn to scale, its curves, its numbers."""
     from ..explorer.server import serve
 
-    serve(host, port, open_browser=browser)
+    with compiling_shown():
+        serve(host, port, open_browser=browser)

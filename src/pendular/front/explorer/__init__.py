@@ -1,1 +1,1 @@
-"""The explorer page: a pair, its bridge and its curves under sliders, served to a browser on this machine."""
+"""The explorer page: a pair, its bridge and its curves under the hand, computed in the browser that shows them."""

@@ -1,32 +1,25 @@
-"""The server of the page: on this machine only unless told otherwise, with all that it needs in the package."""
+"""The server of the page: it hands out files, on this machine only unless told otherwise, and computes nothing."""
 
-import socket
-from pathlib import Path
+import gzip
+import webbrowser
+from collections.abc import Mapping
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from typing import Any, NamedTuple
+from urllib.parse import urlsplit
 
 import typer
-from nicegui import app, run, ui
-from starlette.requests import Request
 
-from ...ground import colours
-from .answer import answer_to
-from .page import Explorer
-from .view import View
+from .files import page_files
 
-__all__ = ["serve"]
+__all__ = ["serve", "server_of"]
 
-_HERE = Path(__file__).parent
-_LOGO = (_HERE / "logo.svg").read_text(encoding="utf-8")
-_STYLE = (_HERE / "style.css").read_text(encoding="utf-8")
-_SCRIPT = (_HERE / "page.js").read_text(encoding="utf-8")
-_TITLE = "Pendular explorer"
-_ADVANCE = "The solver is being prepared. The first time on a machine it is compiled, which takes about a minute."
+_TYPES = {"html": "text/html; charset=utf-8", "js": "text/javascript; charset=utf-8"}
 
-# What has to be compiled, or read from the disk, before an answer comes at once.
-_WARMING = (
-    View(laws=("zhao2020",)),
-    View(control="volume", value="5 pL", laws=("zhao2020",)),
-    View(liquid="ethanol", radius2="plane", control="humidity", value="99 %"),
-)
+
+class _File(NamedTuple):
+    kind: str
+    content: bytes
+    packed: bytes
 
 
 def serve(host: str, port: int, *, open_browser: bool) -> None:
@@ -44,78 +37,63 @@ def serve(host: str, port: int, *, open_browser: bool) -> None:
     Raises
     ------
     ValueError
+        If the port cannot be used, or the page cannot be made.
+    """
+    with server_of(host, port, page_files()) as server:
+        address = f"http://{host}:{port}/"
+        typer.echo(f"Pendular explorer at {address} (Ctrl+C ends it)")
+        if open_browser:
+            webbrowser.open(address)
+        try:
+            server.serve_forever()
+        except KeyboardInterrupt:
+            typer.echo()
+
+
+def server_of(host: str, port: int, contents: Mapping[str, bytes]) -> ThreadingHTTPServer:
+    """Server of files by their names, of which ``index.html`` answers the bare address.
+
+    Raises
+    ------
+    ValueError
         If the port cannot be used.
     """
-    _refuse_taken(host, port)
-    ready: list[bool] = []
-
-    async def prepare() -> None:
-        try:
-            await run.io_bound(_warm_up)
-        finally:
-            ready.append(True)
-
-    @ui.page("/", title=_TITLE)
-    async def explorer(request: Request) -> None:
-        ui.add_css(_palette() + _STYLE)
-        ui.add_head_html(f"<script>{_SCRIPT}</script>")
-        ui.colors(primary=colours.LIQUID_EDGE)
-        _lay_out_head()
-        parameters = dict(request.query_params)
-        with ui.element("div").classes("explorer") as body:
-            if ready:
-                Explorer(parameters)
-                return
-            notice = ui.label(_ADVANCE).classes("advance").props("role=status")
-
-        def look() -> None:
-            if ready:
-                timer.deactivate()
-                notice.delete()
-                with body:
-                    Explorer(parameters)
-
-        timer = ui.timer(0.2, look)
-
-    app.on_startup(prepare)
-    app.on_startup(lambda: typer.echo(f"Pendular explorer at http://{host}:{port}/ (Ctrl+C ends it)"))
-    ui.run(
-        host=host,
-        port=port,
-        title=_TITLE,
-        favicon=_LOGO,
-        language="en-GB",
-        show=open_browser,
-        reload=False,
-        tailwind=False,
-        binding_refresh_interval=None,
-        show_welcome_message=False,
-    )
-
-
-def _refuse_taken(host: str, port: int) -> None:
+    known = {
+        f"/{name}": _File(_TYPES[name.rpartition(".")[2]], content, gzip.compress(content))
+        for name, content in contents.items()
+    }
+    known["/"] = known["/index.html"]
     try:
-        with socket.create_server((host, port)):
-            pass
+        return ThreadingHTTPServer((host, port), lambda *request: _Answer(known, *request))
     except OSError as error:
         reason = str(error.strerror).partition(" (")[0]
         raise ValueError(f"port: {port} of {host} cannot be used: {reason}; choose another") from error
 
 
-def _warm_up() -> None:
-    for view in _WARMING:
-        answer_to(view)
+class _Answer(BaseHTTPRequestHandler):
+    """One of the files, packed for a browser that takes it so."""
 
+    protocol_version = "HTTP/1.1"
 
-def _palette() -> str:
-    """Colours of the pictures for the style sheet."""
-    names = ("INK", "FAINT", "HAIR", "GRAIN", "GRAIN_EDGE", "LIQUID", "LIQUID_EDGE", "ACCENT")
-    lines = (f"--{name.lower().replace('_', '-')}: {getattr(colours, name)};" for name in names)
-    return f":root {{ {' '.join(lines)} }}\n"
+    def __init__(self, known: Mapping[str, _File], *request: Any) -> None:
+        self._known = known
+        super().__init__(*request)
 
+    def do_GET(self) -> None:
+        found = self._known.get(urlsplit(self.path).path)
+        if found is None:
+            self.send_error(404)
+            return
+        is_packed = "gzip" in self.headers.get("Accept-Encoding", "")
+        content = found.packed if is_packed else found.content
+        self.send_response(200)
+        self.send_header("Content-Type", found.kind)
+        self.send_header("Content-Length", str(len(content)))
+        self.send_header("Cache-Control", "no-cache")
+        if is_packed:
+            self.send_header("Content-Encoding", "gzip")
+        self.end_headers()
+        self.wfile.write(content)
 
-def _lay_out_head() -> None:
-    with ui.element("header"):
-        ui.html(_LOGO, sanitize=False).classes("logo")
-        ui.html("Pendular", sanitize=False, tag="h1")
-        ui.html("a capillary bridge, exactly", sanitize=False, tag="p")
+    def log_message(self, format: str, *words: Any) -> None:
+        """Say nothing about what is asked."""

@@ -452,6 +452,15 @@ function begin() {
   if (notice) at("notices").innerHTML = `<p>${plainText(notice)}</p>`;
 }
 
+/** What the page computes, for the console of a browser. */
+window.explorer = {
+  picture: () => picture,
+  answerAt(hash) {
+    const { question, state, rupture, lowerEnd, laws } = answerTo(viewAt(hash), exact);
+    return { question, state, rupture, lowerEnd, laws: laws.map(({ law, ...told }) => ({ law: law.name, ...told })) };
+  },
+};
+
 layOut();
 begin();
 if ("serviceWorker" in navigator && location.protocol.startsWith("http")) navigator.serviceWorker.register("offline.js");

@@ -73,15 +73,18 @@ function oneOf(name, value, known) {
   if (!known.includes(value)) throw new RangeError(`${name}: '${value}' is not one of ${known.join(", ")}`);
 }
 
+const QUANTITY = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*([^\d\s.+-].*)$/i;
+const isNumber = (text) => text !== "" && Number.isFinite(Number(text));
+
 /** A quantity as it is typed in a shell. */
 function bare(text) {
   const simple = text.trim().replaceAll(/[µμ]/g, "u").replace("°C", "degC").replace(/°$/, "").replace("−", "-");
-  return simple.replace(/^([+-]?[\d.]+(?:e[+-]?\d+)?)\s+(\D.*)$/i, "$1$2");
+  return isNumber(simple) ? simple : simple.replace(QUANTITY, "$1$2");
 }
 
 /** A quantity as it is shown to people, the inverse of `bare`. */
 function spaced(text) {
-  const found = /^([+-]?[\d.]+(?:e[+-]?\d+)?) *(\D.*)$/i.exec(text);
+  const found = isNumber(text) ? null : QUANTITY.exec(text);
   if (!found || found[2] === "°") return text;
   return `${found[1]} ${found[2].replace("degC", "°C").replace(/^u/, "µ")}`;
 }
