@@ -131,6 +131,28 @@ def test_bounds_hold_at_places_that_were_not_searched(degrees):
     assert worst_over_bounds(table, 3000, SEED) <= 1.0
 
 
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-2])
+@pytest.mark.parametrize(("degrees", "control"), [(0, "volume"), (20, "volume"), (20, "suction")])
+def test_a_coarse_tolerance_is_reached_next_to_rupture_too(degrees, control, tolerance):
+    table = pl.tabulate(np.deg2rad(degrees), control, tolerance=tolerance)
+    assert table.bound.force <= tolerance
+    assert worst_over_bounds(table, 3000, SEED) <= 1.0
+
+
+@pytest.mark.long
+def test_all_volumes_are_a_small_file(tmp_path):
+    path = tmp_path / "v.npz"
+    pl.tabulate(0.0, "volume").save(path)
+    assert path.stat().st_size < 2e6
+
+
+def test_the_cube_root_is_one():
+    print(f"seed {SEED}")
+    numbers = np.concatenate([10.0 ** np.random.default_rng(SEED).uniform(-60.0, 1.0, 2000), [1e-60, 1.0, 8.0]])
+    roots = np.array([kernels.cube_root(number) for number in numbers.tolist()])
+    assert np.abs(roots**3 / numbers - 1.0).max() < 1e-13
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("control", ["suction", "volume"])
 @pytest.mark.parametrize("degrees", ANGLES)
@@ -332,7 +354,7 @@ def test_damaged_file_is_refused(volume_table, tmp_path):
 
 def test_a_bound_that_is_not_reached_is_said(monkeypatch):
     reached = Bound(force=3e-6, rupture=1e-9, liquid=1e-5, bridges=1)
-    monkeypatch.setattr("pendular.table.table.measure", lambda grid, task: reached)
+    monkeypatch.setattr("pendular.table.table.measure", lambda grid, task, parts: (reached, np.zeros(1 + parts.max())))
     with pytest.warns(pl.ToleranceWarning, match="error of the force is 3.0e-06, not below 1.0e-06"):
         table = pl.tabulate(0.3, reduced=(20.0, 30.0), radius_ratio=(1, 2), tolerance=1e-6)
     assert table.bound == reached

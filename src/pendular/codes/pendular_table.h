@@ -71,8 +71,11 @@ enum {
     PENDULAR_TABLE_CHANNEL = 112,
     PENDULAR_TABLE_ALIGNMENT = 64,
     PENDULAR_TABLE_CHECKSUM = 4,
-    PENDULAR_TABLE_VERSION = 1
+    PENDULAR_TABLE_VERSION = 2
 };
+
+/* At constant volume q is stretched by the length d = PENDULAR_TABLE_STRETCH Rm sqrt(c), of 0.7 sqrt(2/pi). */
+#define PENDULAR_TABLE_STRETCH 0.5585191925620058
 
 /* Columns of the numbers of a row, and of its cuts. */
 enum { PENDULAR_TABLE_X0, PENDULAR_TABLE_X1, PENDULAR_TABLE_U0, PENDULAR_TABLE_U1, PENDULAR_TABLE_Q0, PENDULAR_TABLE_Q1,
@@ -92,7 +95,7 @@ typedef struct {
 
 /* An open table. The first members are for the functions below; a copy of it is a table as well. */
 typedef struct {
-    const double *lines;  /* of each row: x = x0 + x1 c is the control in its cell, u0 + u1 u and q0 + q1 q are cut */
+    const double *lines;  /* of each row: x0 and x1 of the control in its cell; u0 + u1 u and q0 + q1 q are cut */
     const int32_t *cuts;  /* of each row: how they are cut into cells, and the numbers of cells before those of the row */
     const double *units;  /* powers of two, by which the coefficients of a row are multiplied, for each channel; or NULL */
     pendular_table_channel channel[PENDULAR_TABLE_MOST_CHANNELS];
@@ -110,6 +113,7 @@ typedef struct {
 typedef struct {
     int32_t row, size_cell;
     double control, x, y, radius, rupture; /* the control is reduced; radius is Rm */
+    double bend;                           /* rupture over the length by which q is stretched; 0 under suction */
 } pendular_table_place;
 
 /* -- Cells ----------------------------------------------------------------------------------------------------------- */
@@ -248,16 +252,48 @@ PENDULAR_FUNCTION double pendular_table_unit_of(const pendular_table *table, int
     return table->units ? table->units[(int64_t)row * table->channels + channel] : 1.0;
 }
 
-/* A quantity of the pair, of which the place is known but for the rupture distance. */
+/* The polynomial of a quantity of the pair, of which the cell is known. */
+PENDULAR_FUNCTION double pendular_table_star(const pendular_table *table, int channel, const pendular_table_place *place)
+{
+    double lanes[PENDULAR_TABLE_LANES];
+    pendular_table_lanes(table->channel[channel].coefficients + (int64_t)place->size_cell * PENDULAR_TABLE_PAIR_CELL, 1,
+        PENDULAR_TABLE_PAIR_TERMS, 0.0, place->y, lanes);
+    return pendular_table_unit_of(table, place->row, channel) * pendular_table_sum(lanes, place->x);
+}
+
+/* A quantity of the pair. */
 PENDULAR_FUNCTION double pendular_table_of_pair(
     const pendular_table *table, int channel, const pendular_table_place *place, double surface_tension)
 {
-    const pendular_table_channel *quantity = &table->channel[channel];
-    double lanes[PENDULAR_TABLE_LANES];
-    pendular_table_lanes(quantity->coefficients + (int64_t)place->size_cell * PENDULAR_TABLE_PAIR_CELL, 1,
-        PENDULAR_TABLE_PAIR_TERMS, 0.0, place->y, lanes);
-    return pendular_table_scale(quantity, place->control, place->radius, surface_tension)
-        * (pendular_table_unit_of(table, place->row, channel) * pendular_table_sum(lanes, place->x));
+    return pendular_table_scale(&table->channel[channel], place->control, place->radius, surface_tension)
+        * pendular_table_star(table, channel, place);
+}
+
+/* Cube root of a positive number, to 14 digits: the same bits everywhere, which a library does not promise. */
+PENDULAR_FUNCTION double pendular_table_cube_root(double number)
+{
+    const int64_t third = ((pendular_table_bits(number) >> 32) * INT64_C(0x55555556)) >> 32;
+    double root = pendular_table_number((third << 32) + INT64_C(0x2A9F789300000000));
+    int i;
+    for (i = 0; i < 2; ++i) {
+        const double cube = root * root * root;
+        root = root * ((cube + 2.0 * number) / (2.0 * cube + number));
+    }
+    return root;
+}
+
+/* The size variable of s = (R1 - R2)/(R1 + R2). */
+PENDULAR_FUNCTION double pendular_table_size_of(const pendular_table *table, double s)
+{
+    if (table->sides == 2)
+        return s;
+    return table->is_volume ? pendular_table_cube_root(s * s + 1e-60) : s * s;
+}
+
+/* About a third of the logarithm of a control over the middle of its cell. */
+PENDULAR_FUNCTION double pendular_table_logarithmic(double control, double middle)
+{
+    return (control - middle) * (control + middle) / (control * (control + 4.0 * middle) + middle * middle);
 }
 
 PENDULAR_FUNCTION pendular_table_place pendular_table_find(
@@ -271,19 +307,21 @@ PENDULAR_FUNCTION pendular_table_place pendular_table_find(
         && ratio <= table->largest_ratio && small > 0.0 && surface_tension > 0.0;
     const double *line;
     const int32_t *cut;
-    double w;
+    double w, star;
     place.control = is_covered ? reduced : NAN;
     place.radius = is_covered ? radius : NAN;
     place.row = pendular_table_cell(place.control, table->shift, table->first, table->rows)
         + (table->sides == 2 && radius1 > radius2 ? table->rows : 0);
     line = table->lines + (int64_t)place.row * PENDULAR_TABLE_LINE;
     cut = table->cuts + (int64_t)place.row * PENDULAR_TABLE_CUT;
-    w = line[PENDULAR_TABLE_U0] + line[PENDULAR_TABLE_U1] * (table->sides == 1 ? s * s : s);
+    w = line[PENDULAR_TABLE_U0] + line[PENDULAR_TABLE_U1] * pendular_table_size_of(table, s);
     place.size_cell = cut[PENDULAR_TABLE_SIZE_CELLS]
         + pendular_table_cell(w, cut[PENDULAR_TABLE_U_SHIFT], cut[PENDULAR_TABLE_U_FIRST], cut[PENDULAR_TABLE_U_COUNT]);
     place.y = pendular_table_within(w, cut[PENDULAR_TABLE_U_SHIFT]);
-    place.x = line[PENDULAR_TABLE_X0] + line[PENDULAR_TABLE_X1] * place.control;
-    place.rupture = pendular_table_of_pair(table, PENDULAR_TABLE_RUPTURE_DISTANCE, &place, surface_tension);
+    place.x = line[PENDULAR_TABLE_X1] * pendular_table_logarithmic(place.control, line[PENDULAR_TABLE_X0]);
+    star = pendular_table_star(table, PENDULAR_TABLE_RUPTURE_DISTANCE, &place);
+    place.rupture = place.radius * star;
+    place.bend = table->is_volume ? star / (PENDULAR_TABLE_STRETCH * sqrt(place.control)) : 0.0;
     return place;
 }
 
@@ -295,10 +333,11 @@ PENDULAR_FUNCTION double pendular_table_gap(double separation)
     return separation < 0.0 ? 0.0 : separation;
 }
 
-/* The root of 1 - D/Dc: 0 at rupture, 1 at contact and in an overlap. */
-PENDULAR_FUNCTION double pendular_table_q(double separation, double rupture)
+/* The root of (1 - D/Dc)/(1 + D/d): 0 at rupture, 1 at contact and in an overlap. */
+PENDULAR_FUNCTION double pendular_table_q(const pendular_table_place *place, double separation)
 {
-    return sqrt(1.0 - pendular_table_gap(separation) / rupture);
+    const double share = pendular_table_gap(separation) / place->rupture;
+    return sqrt((1.0 - share) / (1.0 + place->bend * share));
 }
 
 /* The lanes of a channel in one of the cells of q of a pair. */
@@ -327,8 +366,7 @@ PENDULAR_FUNCTION double pendular_table_of_bridge(const pendular_table *table, i
 {
     const int32_t shift = table->cuts[(int64_t)place->row * PENDULAR_TABLE_CUT + PENDULAR_TABLE_Q_SHIFT];
     double w, lanes[PENDULAR_TABLE_LANES];
-    const int32_t q_cell
-        = pendular_table_q_cell(table, place->row, pendular_table_q(separation, place->rupture), &w);
+    const int32_t q_cell = pendular_table_q_cell(table, place->row, pendular_table_q(place, separation), &w);
     pendular_table_lanes_of(table, channel, place, q_cell, lanes);
     return pendular_table_scale(&table->channel[channel], place->control, place->radius, surface_tension)
         * (pendular_table_unit_of(table, place->row, channel)
@@ -354,41 +392,45 @@ PENDULAR_FUNCTION double pendular_table_force_at(
     return pendular_table_of_bridge(table, PENDULAR_TABLE_FORCE, place, separation, surface_tension);
 }
 
-/* dF/dD, with dq/dD = -1/(2 q Dc). */
+/* dF/dD, with dq/dD = -(1 + Dc/d)/(2 q Dc (1 + D/d)^2). */
 PENDULAR_FUNCTION double pendular_table_stiffness_at(
     const pendular_table *table, const pendular_table_place *place, double separation, double surface_tension)
 {
     const double *line = table->lines + (int64_t)place->row * PENDULAR_TABLE_LINE;
     const int32_t *cut = table->cuts + (int64_t)place->row * PENDULAR_TABLE_CUT;
     const int32_t shift = cut[PENDULAR_TABLE_Q_SHIFT], first = cut[PENDULAR_TABLE_Q_FIRST];
-    double q, w, t_rate, lanes[PENDULAR_TABLE_LANES];
+    double q, w, stretched, q_rate, t_rate, lanes[PENDULAR_TABLE_LANES];
     int32_t q_cell;
     if (!pendular_table_is_bridge(place, separation))
         return NAN;
     if (separation < 0.0)
         return 0.0;
-    q = pendular_table_q(separation, place->rupture);
+    q = pendular_table_q(place, separation);
     q_cell = pendular_table_q_cell(table, place->row, q, &w);
+    stretched = 1.0 + place->bend * (separation / place->rupture);
+    q_rate = -0.5 * (1.0 + place->bend) / (q * place->rupture * stretched * stretched);
     t_rate = 2.0 / (pendular_table_edge(q_cell + 1, shift, first) - pendular_table_edge(q_cell, shift, first))
-        * line[PENDULAR_TABLE_Q1] * (-0.5 / (q * place->rupture));
+        * line[PENDULAR_TABLE_Q1] * q_rate;
     pendular_table_lanes_of(table, PENDULAR_TABLE_FORCE, place, q_cell, lanes);
     return pendular_table_scale(&table->channel[PENDULAR_TABLE_FORCE], place->control, place->radius, surface_tension)
         * (pendular_table_unit_of(table, place->row, PENDULAR_TABLE_FORCE)
             * pendular_table_rate(lanes, pendular_table_within(w, shift)) * t_rate);
 }
 
-/* The integral of q times the polynomial of the force, from rupture to an end, cell by cell; five points are exact. */
+/* The integral of q (1 + b)/(1 + b q^2)^2 times the polynomial of the force, from rupture to an end, cell by cell, with
+   b = Dc/d: eight points are exact, or nearly so where b is not 0. */
 PENDULAR_FUNCTION double pendular_table_integral(
     const pendular_table *table, const pendular_table_place *place, double end)
 {
-    const double abscissae[5] = { -0.906179845938664, -0.5384693101056831, 0.0, 0.5384693101056831, 0.906179845938664 };
-    const double weights[5] = { 0.23692688505618908, 0.47862867049936647, 0.5688888888888889, 0.47862867049936647,
-        0.23692688505618908 };
+    const double abscissae[8] = { -0.9602898564975362, -0.7966664774136267, -0.525532409916329, -0.18343464249564978,
+        0.18343464249564978, 0.525532409916329, 0.7966664774136267, 0.9602898564975362 };
+    const double weights[8] = { 0.10122853629037706, 0.22238103445337443, 0.3137066458778869, 0.36268378337836166,
+        0.36268378337836166, 0.3137066458778869, 0.22238103445337443, 0.10122853629037706 };
     const double *line = table->lines + (int64_t)place->row * PENDULAR_TABLE_LINE;
     const int32_t *cut = table->cuts + (int64_t)place->row * PENDULAR_TABLE_CUT;
     const int32_t shift = cut[PENDULAR_TABLE_Q_SHIFT], step = line[PENDULAR_TABLE_Q1] > 0.0 ? 1 : -1;
     const double unit = pendular_table_unit_of(table, place->row, PENDULAR_TABLE_FORCE);
-    double w, q, far, high, half, total = 0.0, low = 0.0, lanes[PENDULAR_TABLE_LANES];
+    double w, q, far, high, half, bent, weight, total = 0.0, low = 0.0, lanes[PENDULAR_TABLE_LANES];
     const int32_t last = pendular_table_q_cell(table, place->row, end, &w);
     int32_t cell = pendular_table_q_cell(table, place->row, 0.0, &w);
     int j;
@@ -397,10 +439,12 @@ PENDULAR_FUNCTION double pendular_table_integral(
         high = cell == last ? end : (far - line[PENDULAR_TABLE_Q0]) / line[PENDULAR_TABLE_Q1];
         half = 0.5 * (high - low);
         pendular_table_lanes_of(table, PENDULAR_TABLE_FORCE, place, cell, lanes);
-        for (j = 0; j < 5; ++j) {
+        for (j = 0; j < 8; ++j) {
             q = 0.5 * (low + high) + half * abscissae[j];
             w = line[PENDULAR_TABLE_Q0] + line[PENDULAR_TABLE_Q1] * q;
-            total += half * weights[j] * q * (unit * pendular_table_sum(lanes, pendular_table_within(w, shift)));
+            bent = 1.0 + place->bend * q * q;
+            weight = half * weights[j] * q * (1.0 + place->bend) / (bent * bent);
+            total += weight * (unit * pendular_table_sum(lanes, pendular_table_within(w, shift)));
         }
         if (cell == last)
             return total;
@@ -408,7 +452,7 @@ PENDULAR_FUNCTION double pendular_table_integral(
     }
 }
 
-/* E(D) = -(the integral of F from D to Dc) = -2 Dc (the integral of F q from 0 to q(D)). */
+/* E(D) = -(the integral of F from D to Dc), with dD/dq = -2 Dc q (1 + b)/(1 + b q^2)^2. */
 PENDULAR_FUNCTION double pendular_table_energy_at(
     const pendular_table *table, const pendular_table_place *place, double separation, double surface_tension)
 {
@@ -417,7 +461,7 @@ PENDULAR_FUNCTION double pendular_table_energy_at(
         return pendular_table_beyond(place, separation);
     unit = pendular_table_scale(&table->channel[PENDULAR_TABLE_FORCE], place->control, place->radius, surface_tension);
     work = 2.0 * place->rupture * unit
-        * pendular_table_integral(table, place, pendular_table_q(separation, place->rupture));
+        * pendular_table_integral(table, place, pendular_table_q(place, separation));
     overlap = separation < 0.0 ? -separation : 0.0;
     return -work - overlap * pendular_table_force_at(table, place, 0.0, surface_tension);
 }
@@ -629,7 +673,7 @@ PENDULAR_HOST int pendular_table_check_rows(const pendular_table *table, uint32_
 {
     const double low_s = (1.0 - table->largest_ratio) / (1.0 + table->largest_ratio);
     const double high_s = (1.0 - table->least_ratio) / (1.0 + table->least_ratio);
-    const double low_u = table->sides == 1 ? low_s * low_s : low_s, high_u = table->sides == 1 ? high_s * high_s : high_s;
+    const double low_u = pendular_table_size_of(table, low_s), high_u = pendular_table_size_of(table, high_s);
     int64_t next_size_cell = 0, next_cell = 0, row;
     if (!pendular_table_is_cut(table->shift, table->first, table->rows)
         || !pendular_table_is_in(table->low, table->shift, table->first, table->rows)
@@ -648,7 +692,7 @@ PENDULAR_HOST int pendular_table_check_rows(const pendular_table *table, uint32_
             || !pendular_table_is_in(u0 + u1 * high_u, u_cut[0], u_cut[1], u_cut[2])
             || !pendular_table_is_in(q0, q_cut[0], q_cut[1], q_cut[2])
             || !pendular_table_is_in(q0 + q1, q_cut[0], q_cut[1], q_cut[2]) || q1 == 0.0
-            || line[PENDULAR_TABLE_X1] < 0.0)
+            || line[PENDULAR_TABLE_X0] <= 0.0 || line[PENDULAR_TABLE_X1] < 0.0)
             return PENDULAR_TABLE_WRONG_CUTS;
         if (cut[PENDULAR_TABLE_SIZE_CELLS] == next_size_cell && cut[PENDULAR_TABLE_CELLS] == next_cell) {
             next_size_cell += u_cut[2];

@@ -4,7 +4,8 @@ With D_c the rupture distance, the coordinate is :math:`q = \sqrt{1 - D/D_c}`: 0
 has a vertical tangent at rupture as a function of D, and none as a function of q.
 
 A small volume spreads fast when the solids move apart: then the force falls within a distance d of contact much shorter
-than D_c. The stretched coordinate, with asinh(D/d) in the place of D, is smooth in such a curve as well.
+than D_c. The stretched coordinate :math:`q = \sqrt{(1 - D/D_c)/(1 + D/d)}` keeps away from the places D = ±id, where
+such a curve is singular.
 """
 
 import math
@@ -28,21 +29,26 @@ from .stability import ladder_at
 Vector = NDArray[np.float64]
 Rows = NDArray[np.float64]
 
+STRETCH = 0.7  # the singular places are farthest from q = 0 to 1
+
 _MOST_STEPS = 6
 
 
 @kernel
 def stretch_of(volume: float, curvatures: float) -> float:
-    """Distance d from contact in which the force of a small volume falls: √(2V/πR̄), with k1 + k2 = 2/R̄."""
-    return math.sqrt(curvatures * volume / math.pi)
+    """Distance d from contact: of the √(2V/πR̄) in which the force of a small volume falls, with k1 + k2 = 2/R̄."""
+    return STRETCH * math.sqrt(curvatures * volume / math.pi)
+
+
+def stretches_of(pairs: Rows) -> Vector:
+    """That distance for rows of (V, k1, θ1, k2, θ2)."""
+    return np.asarray(STRETCH * np.sqrt((pairs[:, 1] + pairs[:, 3]) * pairs[:, 0] / math.pi))
 
 
 @kernel
 def separation_at(q: float, rupture: float, stretch: float) -> float:
     """D at a coordinate q, stretched by the length d; an infinite d does not stretch."""
-    if math.isinf(stretch):
-        return rupture * (1.0 - q * q)
-    return stretch * math.sinh(math.asinh(rupture / stretch) * (1.0 - q * q))
+    return rupture * (1.0 - q * q) / (1.0 + rupture / stretch * q * q)
 
 
 @kernel

@@ -233,13 +233,13 @@ def _table_range(
         if angle1 != angle2 and angles[kind[i]] == angle2:
             i, j = j, i
         held = element(values, row)
-        pair, place, rupture = find(grid, held, radii[i], radii[j], tension)
+        pair, place, rupture, bend = find(grid, held, radii[i], radii[j], tension)
         forces[row], volumes[row], potentials[row] = 0.0, math.nan, math.nan
         if suctions.size:
             suctions[row] = math.nan
         if gap_of(gaps[row]) >= rupture:
             continue
-        cell, t = cell_of(grid, place, q_of(gaps[row], rupture))
+        cell, t = cell_of(grid, place, q_of(gaps[row], rupture, bend))
         force = 2.0 * math.pi * tension * pair.radius * in_three(grid.force, cell * CELL, place.x, place.y, t)
         unit = liquid_unit(grid, pair.control, pair.radius, tension)
         other = unit * in_three(grid.liquid, cell * CELL, place.x, place.y, t)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ..ground.rows import Own, element, entry, over_rows
 from . import kernels
-from .kernels import Grid, Place, cell_of, if_bridged, liquid_unit, place_of, q_of, reduce_pair
+from .kernels import Grid, Place, bend_of, cell_of, if_bridged, liquid_unit, place_of, q_of, reduce_pair
 from .polynomial import CELL, RUPTURE_CELL, in_three, in_two
 
 Floats = NDArray[np.float64]
@@ -33,7 +33,7 @@ def block_range(
     """Forces, or what goes with them, of the contacts from start to stop, in blocks worked out in numbers and cells."""
     asking = numbers[:5]
     separation, control, radius1, radius2, gamma = numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]
-    size, rupture, unit, q = numbers[5], numbers[6], numbers[7], numbers[8]
+    size, rupture, unit, q, star = numbers[5], numbers[6], numbers[7], numbers[8], numbers[12]
     at_x, at_y, at_t = numbers[9], numbers[10], numbers[11]
     row, size_cell, cell = cells[0], cells[1], cells[2]
     coefficients = grid.force if asked == FORCE else grid.liquid
@@ -54,9 +54,10 @@ def block_range(
         for i in range(count):
             row[i], size_cell[i], at_x[i], at_y[i] = place_of(grid, control[i], size[i], row[i])
         for i in range(count):
-            rupture[i] *= in_two(grid.rupture, size_cell[i] * RUPTURE_CELL, at_x[i], at_y[i])
+            star[i] = in_two(grid.rupture, size_cell[i] * RUPTURE_CELL, at_x[i], at_y[i])
         for i in range(count):
-            q[i] = q_of(separation[i], rupture[i])
+            rupture[i] *= star[i]
+            q[i] = q_of(separation[i], rupture[i], bend_of(grid, control[i], star[i]))
         for i in range(count):
             cell[i], at_t[i] = cell_of(grid, Place(row[i], size_cell[i], at_x[i], at_y[i]), q[i])
         for i in range(count):
@@ -80,7 +81,7 @@ def scalar_range(asked: int, grid: Grid, x: Operands, out: Floats, start: int, s
 def evaluate(asked: int, grid: Grid, x: tuple[Floats, ...], out: Floats) -> None:
     """Fill ``out`` with what is asked, on all threads; an operand of one element counts for all contacts."""
     if asked in (FORCE, LIQUID):
-        room = Own(lambda: np.empty((12, _BLOCK))), Own(lambda: np.empty((3, _BLOCK), np.int64))
+        room = Own(lambda: np.empty((13, _BLOCK))), Own(lambda: np.empty((3, _BLOCK), np.int64))
         over_rows(block_range, out.size, _CHUNK, asked, grid, x, out, *room)
     else:
         over_rows(scalar_range, out.size, _CHUNK, asked, grid, x, out)

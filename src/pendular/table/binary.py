@@ -20,7 +20,7 @@ Arrays = dict[str, NDArray[Any]]
 
 SUFFIX = ".bridges"
 MAGIC = b"\x89BRIDGE\n"
-_BYTE_ORDER, _VERSION = 0x01020304, 1
+_BYTE_ORDER, _VERSION = 0x01020304, 2
 _HEADER = np.dtype(
     [
         ("magic", "S8"), ("byte_order", "<u4"), ("version", "<u4"), ("size", "<u8"),

@@ -12,6 +12,8 @@ from .cuts import (
     Points,
     chebyshev,
     choose,
+    control_line,
+    controls_at,
     cut_of,
     interpolation_error,
     octave_of,
@@ -30,8 +32,8 @@ Pairs = Callable[[Floats], tuple[Floats, Floats]]  # controls and sizes at place
 
 _MANTISSA = 52
 # The last one is contact; next to it the force of a small volume falls fast.
-_TRIAL_Q = np.array([0.02, 0.2, 0.5, 0.8, 0.92, 0.97, 0.99, 0.997, 1.0])
-_TRIAL_SIZES = np.array([0.0, 0.5, 0.9, 0.99, 1.0])  # over the range; next to a plane small suctions vary most
+_TRIAL_Q = np.array([0.0, 0.003, 0.02, 0.2, 0.5, 0.8, 0.92, 0.97, 0.99, 0.997, 1.0])
+_TRIAL_SIZES = np.array([0.0, 0.05, 0.15, 0.3, 0.5, 0.9, 0.99, 1.0])  # over the range; dense where bridges vary most
 _FINEST_CONTROL = 6  # as a power of two: cells to an octave
 _STEPS_BACK = 16
 _SLACK = 1.0 + 1e-12  # of the ranges: radii at the limit are on either side of it by rounding
@@ -46,7 +48,9 @@ class Octave(NamedTuple):
     size: Cut
     q: Cut
     choices: tuple[int, int]  # numbers of the two cuts in the list of candidates
-    samples: Samples
+    edges: Floats  # of the cells of the control
+    rupture: list[Floats]  # coefficients, of each side
+    values: list[Floats]  # of force and liquid
 
 
 def _columns(samples: Samples, control: Floats, size: Floats, q: Floats) -> tuple[Floats, Floats]:
@@ -91,11 +95,11 @@ def _error(samples: Samples, units: tuple[float, float], pairs: Pairs, points: P
 
 def _control_error(samples: Samples, units: tuple[float, float], exponent: int, parts: int, sizes: Floats) -> float:
     """The same for the control, in the first and the last cell of an octave."""
-    low, width = 2.0**exponent, 2.0 ** (exponent - parts)
-    middles = low + width * np.array([0.5, 2.0**parts - 0.5])
+    edges = _edges(exponent, parts)
+    lines = np.array([control_line(*ends) for ends in (edges[:2], edges[-2:])])
 
     def points(t: Floats) -> Floats:
-        return middles[:, None] + 0.5 * width * t
+        return controls_at(t, *lines.T[..., None])
 
     return _error(samples, units, lambda control: (control, sizes), points, (LANES, CONTROL_TERMS))
 
@@ -111,8 +115,8 @@ def _q_error(task: Task, samples: Samples, controls: Floats, sizes: Floats, poin
     return float(interpolation_error(forces, points, LANES).max() / task.share / task.tolerance)
 
 
-def _cut_octave(task: Task, samples: Samples, exponent: int, before: Octave | None) -> Octave:
-    """Choose the cuts for an octave, beginning a little below those of the one before."""
+def build_octave(task: Task, samples: Samples, exponent: int, before: Octave | None) -> Octave:
+    """Choose the cuts for an octave, beginning a little below those of another, and fill the cells."""
     controls, sizes = _trials_of(task, exponent)
     units = _units(task, samples, exponent)
     after = (0, 0) if before is None else tuple(max(0, choice - _STEPS_BACK) for choice in before.choices)
@@ -126,7 +130,12 @@ def _cut_octave(task: Task, samples: Samples, exponent: int, before: Octave | No
 
     size, size_choice = choose(size_error, *task.sizes, after[0])
     q, q_choice = choose(lambda points: _q_error(task, samples, controls, sizes, points), 0.0, 1.0, after[1])
-    return Octave(exponent, parts, size, q, (size_choice, q_choice), samples)
+    edges = _edges(exponent, parts)
+    return Octave(
+        exponent, parts, size, q, (size_choice, q_choice), edges,
+        [_fill_rupture(task, edges, size, sample) for sample in samples],
+        [_fill_values(task, edges, size, q, sample) for sample in samples],
+    )  # fmt: skip
 
 
 def _powers(values: Floats, axis: int) -> Floats:
@@ -139,31 +148,37 @@ def _rounded(coefficients: Floats, precision: Floats) -> Floats:
     unit = np.exp2(np.floor(np.log2(np.where(precision > 0.0, precision, 1.0)))).reshape(
         -1, *(1,) * (coefficients.ndim - 1)
     )
-    return np.round(coefficients / unit) * unit
+    return np.round(coefficients / unit) * unit + 0.0  # without -0.0
+
+
+def _edges(exponent: int, parts: int) -> Floats:
+    """Ends of the cells of the control in an octave."""
+    return np.asarray(2.0**exponent * (1.0 + np.arange(2**parts + 1) / 2**parts))
 
 
 def _controls(edges: Floats, terms: int) -> Floats:
     """Interpolation points between the edges of the cells of the control: (cells, terms)."""
-    return edges[:-1, None] + 0.5 * np.diff(edges)[:, None] * (1.0 + chebyshev(terms))
+    lines = np.array([control_line(*ends) for ends in pairwise(edges)])
+    return controls_at(chebyshev(terms), *lines.T[..., None])
 
 
-def _fill_rupture(task: Task, edges: Floats, octave: Octave, side: int) -> Floats:
+def _fill_rupture(task: Task, edges: Floats, cut: Cut, sample: Sample) -> Floats:
     """Coefficients of the rupture distance in the size cells of the control cells, given by their edges."""
     control = _controls(edges, LANES)
-    size = octave.size.points(chebyshev(RUPTURE_SIZE_TERMS))  # (size cells, y)
+    size = cut.points(chebyshev(RUPTURE_SIZE_TERMS))  # (size cells, y)
     pairs = np.broadcast_arrays(control[:, None, None, :], size[None, :, :, None])
-    rupture = curves_of(octave.samples[side], pairs[0], pairs[1], np.empty(0)).rupture.reshape(pairs[0].shape)
+    rupture = curves_of(sample, pairs[0], pairs[1], np.empty(0)).rupture.reshape(pairs[0].shape)
     coefficients = _powers(_powers(rupture, 2), 3)[:, :, ::-1].reshape(-1, RUPTURE_SIZE_TERMS, LANES)
     return _rounded(coefficients, _ROUNDING * task.rupture_tolerance * np.abs(coefficients[:, -1, 0])).ravel()
 
 
-def _fill_values(task: Task, edges: Floats, octave: Octave, side: int) -> Floats:
+def _fill_values(task: Task, edges: Floats, size_cut: Cut, q_cut: Cut, sample: Sample) -> Floats:
     """Coefficients of force and liquid, (2, all), in the cells of size and q of the control cells."""
     control = _controls(edges, CONTROL_TERMS)
-    size = octave.size.points(chebyshev(SIZE_TERMS))
+    size = size_cut.points(chebyshev(SIZE_TERMS))
     pairs = np.broadcast_arrays(control[:, None, :, None], size[None, :, None, :])
-    q = octave.q.points(chebyshev(LANES))  # (q cells, t)
-    found = curves_of(octave.samples[side], pairs[0], pairs[1], q.ravel()).values
+    q = q_cut.points(chebyshev(LANES))  # (q cells, t)
+    found = curves_of(sample, pairs[0], pairs[1], q.ravel()).values
     slow = np.sqrt(pairs[0].ravel()) if task.is_volume else np.square(pairs[0].ravel())
     found[..., 1] *= slow[:, None]
     values = np.moveaxis(found.reshape(*pairs[0].shape, *q.shape, 2), (6, 4), (0, 3))  # (2, row, size, q, x, y, t)
@@ -181,6 +196,12 @@ def cells_of(values: Floats, tolerance: float) -> Floats:
     return np.stack([_rounded(cells[i], precision[i]).ravel() for i in range(len(values))])
 
 
+def octaves_of_rows(grid: Grid, count: int) -> NDArray[np.int64]:
+    """Number of the octave, of so many, in which each row lies; the first and the last row of a side are one more."""
+    row = np.arange(len(grid.lines)) % grid.cells
+    return np.clip((row - 1) * count // (grid.cells - 2), 0, count - 1)
+
+
 def sample_range(task: Task) -> list[Samples]:
     """Solve for the bridges of all octaves of the control, from thin bridges to thick ones, which have more panels."""
     last = max(octave_of(task.low), octave_of(float(np.nextafter(task.high, 0.0))))
@@ -192,20 +213,12 @@ def sample_range(task: Task) -> list[Samples]:
     return samples if task.is_volume else samples[::-1]
 
 
-def build_grid(task: Task, samples: list[Samples]) -> Grid:
-    """Choose the cells and fill them from the samples."""
-    octaves: list[Octave] = []
-    for exponent, of_octave in enumerate(samples, octave_of(task.low)):
-        octaves.append(_cut_octave(task, of_octave, exponent, octaves[-1] if octaves else None))
-    return fill_grid(task, octaves)
-
-
 def empty_grid(task: Task) -> Grid:
     """The grid of pairs that hold no bridge: one cell, and the rupture distance is 0."""
     size, q = (cut_of(*ends, 1, 0, is_reversed=False) for ends in (task.sizes, (0.0, 1.0)))
     first, last = octave_of(task.low), octave_of(task.high)
     rows = last - first + 3  # with one before and one after, for what lies at the limits but for rounding
-    line = [0.0, 0.0, size.w0, size.w1, q.w0, q.w1]
+    line = [1.0, 0.0, size.w0, size.w1, q.w0, q.w1]
     cut = [size.shift, size.first, size.cells, q.shift, q.first, q.cells, 0, 0]
     return _grid_of(
         task, task.sides * rows * [line], task.sides * rows * [cut], np.zeros(RUPTURE_CELL), np.zeros((2, CELL)),
@@ -232,20 +245,19 @@ def _grid_of(
     )  # fmt: skip
 
 
-def fill_grid(task: Task, octaves: list[Octave]) -> Grid:
-    """Fill the cells of the octaves."""
+def join(task: Task, octaves: list[Octave]) -> Grid:
+    """The grid of all octaves."""
     finest = max(octave.parts for octave in octaves)
     headers, rupture, values = [], [], []
     size_cells = cells = 0
     for side in range(task.sides):
         rows = []
         for octave in octaves:
-            edges = 2.0**octave.exponent * (1.0 + np.arange(2**octave.parts + 1) / 2**octave.parts)
-            rupture.append(_fill_rupture(task, edges, octave, side))
-            values.append(_fill_values(task, edges, octave, side))
+            rupture.append(octave.rupture[side])
+            values.append(octave.values[side])
             size, q = octave.size, octave.q
-            for low, high in pairwise(edges):
-                line = [(low + high) / (low - high), 2.0 / (high - low), size.w0, size.w1, q.w0, q.w1]
+            for low, high in pairwise(octave.edges):
+                line = [*control_line(low, high), size.w0, size.w1, q.w0, q.w1]
                 cut = [size.shift, size.first, size.cells, q.shift, q.first, q.cells, size_cells, cells]
                 rows += 2 ** (finest - octave.parts) * [(line, cut)]
                 size_cells += size.cells

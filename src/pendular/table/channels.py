@@ -11,9 +11,9 @@ from ..exact.state import State
 from .arrays import FORCE, evaluate
 from .binary import Channel
 from .build import cells_of
-from .cuts import chebyshev
+from .cuts import chebyshev, controls_at
 from .kernels import CELLS, Q0, Q1, Q_COUNT, Q_FIRST, Q_SHIFT, U0, U1, U_COUNT, U_FIRST, U_SHIFT, X0, X1, Grid
-from .measure import SAFETY, SEED, all_cells, between, exact_states, position
+from .measure import NEAREST_RUPTURE, SAFETY, SEED, all_cells, between, exact_states, position
 from .polynomial import CONTROL_TERMS, LANES, SIZE_TERMS
 from .samples import pairs_of
 from .task import Task, refuse_dry
@@ -34,7 +34,7 @@ _SHARED = {
     "axial_tensor": _of_bridge("m2", 2),
     "area": _of_bridge("m2", 2),
 }
-# Of solids that are wetted alike, the angle on either is no smooth function of s², in which their table is: the mean of
+# Of solids that are wetted alike, the angle on either is no smooth function of |s|, as their table is: the mean of
 # the two is, and their difference, smaller minus larger solid, over s.
 _ANGLES = {
     1: {"half_filling_mean": _of_bridge("rad", 0, "1 rad"), "half_filling_slope": _of_bridge("rad", 0, "2 rad over s")},
@@ -72,9 +72,10 @@ def fill(grid: Grid, task: Task, names: Sequence[str]) -> list[Filled]:
     channels, worst = known(grid.sides), np.zeros(len(names))
     for places in all_cells(grid, np.random.default_rng(SEED)):
         control, size, q = position(grid, task, places)
+        s = task.s_of(size)
         pairs = pairs_of(task, control, size, places.cell[:, 0] // grid.cells)
-        states, rupture = exact_states(task, pairs, np.column_stack([q, np.ones(len(q))]))
-        gap = rupture[:, None] * (1.0 - q * q)
+        states, separation, _ = exact_states(task, pairs, np.column_stack([q, np.ones(len(q))]), NEAREST_RUPTURE)
+        gap = separation[:, :-1]
         with np.errstate(divide="ignore"):
             radii = 1.0 / pairs[:, 1], 1.0 / pairs[:, 3]
         each = [np.repeat(operand, q.shape[1]) for operand in (control, *radii)]
@@ -82,19 +83,19 @@ def fill(grid: Grid, task: Task, names: Sequence[str]) -> list[Filled]:
             polynomial = np.empty(gap.size)
             evaluate(FORCE, grid._replace(force=coefficients[i]), (gap.ravel(), *each, np.ones(1)), polynomial)
             found = polynomial.reshape(gap.shape) / (2.0 * math.pi)
-            worst[i] = max(worst[i], _error(channels[name], found, _taken(states, size, name), size))
+            worst[i] = max(worst[i], _error(channels[name], found, _taken(states, s, name), s))
     filled = zip(names, SAFETY * worst, coefficients, strict=True)
     return [Filled(name, channels[name], float(bound), numbers) for name, bound, numbers in filled]
 
 
-def _error(channel: Channel, found: Floats, exact: Floats, size: Floats) -> float:
+def _error(channel: Channel, found: Floats, exact: Floats, s: Floats) -> float:
     """Largest error on curves; the exact values end in that at contact."""
     errors = np.abs(found - exact[:, :-1])
     if channel.bound_of == "1 rad":
         return float(errors.max())
     if channel.bound_of == "2 rad over s":  # equal spheres have no difference
-        is_unequal = size > 0.0
-        return float((0.5 * np.sqrt(size[is_unequal, None]) * errors[is_unequal]).max(initial=0.0))
+        is_unequal = s > 0.0
+        return float((0.5 * s[is_unequal, None] * errors[is_unequal]).max(initial=0.0))
     return float((errors / exact[:, -1:]).max())
 
 
@@ -106,7 +107,7 @@ def _rows(grid: Grid) -> Integers:
 def _values(grid: Grid, task: Task, row: int, names: Sequence[str]) -> Floats:
     """Values at the interpolation points of the cells of a row: (quantities, 1, size, q, x, y, t)."""
     line, cut = grid.lines[row], grid.cuts[row]
-    control = (chebyshev(CONTROL_TERMS) - line[X0]) / line[X1]
+    control = controls_at(chebyshev(CONTROL_TERMS), line[X0], line[X1])
     size = np.full((cut[U_COUNT], SIZE_TERMS), task.sizes[0])
     if line[U1] != 0.0:
         size = (_places(cut[[U_SHIFT, U_FIRST, U_COUNT]], SIZE_TERMS) - line[U0]) / line[U1]
@@ -114,8 +115,8 @@ def _values(grid: Grid, task: Task, row: int, names: Sequence[str]) -> Floats:
     shape = (*size.shape, control.size)
     controls, sizes = (np.broadcast_to(each, shape).ravel() for each in (control, size[..., None]))
     pairs = pairs_of(task, controls, sizes, np.full(controls.size, row // grid.cells))
-    states, _ = exact_states(task, pairs, np.broadcast_to(q.ravel(), (controls.size, q.size)))
-    values = np.stack([_taken(states, sizes, name) for name in names])
+    states = exact_states(task, pairs, np.broadcast_to(q.ravel(), (controls.size, q.size))).states
+    values = np.stack([_taken(states, task.s_of(sizes), name) for name in names])
     for name in _lacking(values, names):
         raise ValueError(f"channels: {name!r} is not there for some bridges of this table; one that pushes has no neck")
     return np.transpose(values.reshape(len(names), *shape, *q.shape), (0, 1, 4, 3, 2, 5))[:, None]
@@ -127,7 +128,7 @@ def _places(cut: Integers, terms: int) -> Floats:
     return between(np.arange(count)[:, None], chebyshev(terms), shift, first)
 
 
-def _taken(states: Floats, size: Floats, name: str) -> Floats:
+def _taken(states: Floats, s: Floats, name: str) -> Floats:
     """A quantity of states, (curves, q)."""
     angle1, angle2 = (states[..., State._fields.index(field)] for field in ("filling1", "filling2"))
     if name in ("half_filling1", "half_filling2"):
@@ -136,7 +137,7 @@ def _taken(states: Floats, size: Floats, name: str) -> Floats:
         return 0.5 * (angle1 + angle2)
     if name == "half_filling_slope":
         with np.errstate(divide="ignore", invalid="ignore"):
-            return (angle1 - angle2) / np.sqrt(size)[:, None]
+            return (angle1 - angle2) / s[:, None]
     return states[..., State._fields.index(name)]
 
 

@@ -32,7 +32,7 @@ def _curve_range(
     for begin in range(start, stop, _BLOCK):
         count = min(_BLOCK, stop - begin)
         for i in range(count):
-            z[i] = 2.0 * q_of(separation[begin + i], rupture) - 1.0
+            z[i] = 2.0 * q_of(separation[begin + i], rupture, 0.0) - 1.0
             last[i], before[i] = 0.0, 0.0
         for end in range(series.size, 0, -_TERMS):
             for i in range(count):

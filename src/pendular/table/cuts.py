@@ -8,6 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .kernels import logarithmic
+
 Floats = NDArray[np.float64]
 Points = Callable[[Floats], Floats]  # coordinates of places from -1 to 1 in cells: (cells, places)
 
@@ -78,6 +80,18 @@ def _candidates() -> tuple[tuple[int, int, bool], ...]:
         if (octaves, parts) == (1, 0) or octaves << parts > 1
     ]
     return tuple(sorted(cuts, key=lambda cut: (cut[0] << cut[1], cut[0])))
+
+
+def control_line(low: float, high: float) -> tuple[float, float]:
+    """x₀ and x₁ of a cell of the control, with which x runs from -1 to 1."""
+    middle = math.sqrt(low * high)
+    return middle, 1.0 / logarithmic(high, middle)
+
+
+def controls_at(x: Floats, middle: Floats, scale: Floats) -> Floats:
+    """Controls at coordinates from -1 to 1 in cells."""
+    y = x / scale
+    return np.asarray(middle * (2.0 * y + np.sqrt(1.0 + 3.0 * y * y)) / (1.0 - y))
 
 
 def chebyshev(count: int) -> Floats:

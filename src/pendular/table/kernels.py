@@ -4,9 +4,11 @@ A table is a set of cells, each with a polynomial. A cell is found without a log
 coordinate are equal parts of the octaves of a number w, which are read off the bits of the floating-point number.
 Octaves resolve what happens near w = 0. The three coordinates:
 
-- the control c*: suction ΔpR̄/γ, or volume V/R̄³; w = c*;
-- the size u = s² of a pair, with s = (R1 - R2)/(R1 + R2), or u = |s| where the two contact angles differ; w = u₀ + u₁u;
-- q = √(1 - D/D_c), 0 at rupture and 1 at contact; w = q₀ + q₁q.
+- the control c*: suction ΔpR̄/γ, or volume V/R̄³; w = c*. In a cell the polynomial is one of about log c*;
+- the size u of a pair, with s = (R1 - R2)/(R1 + R2): s² under suction; |s|^(2/3) at constant volume, where equal
+  spheres may lose their stability by sliding; |s| where the two contact angles differ; w = u₀ + u₁u;
+- q = √(1 - D/D_c), 0 at rupture and 1 at contact; at constant volume √((1 - D/D_c)/(1 + D/d)), stretched as
+  :mod:`pendular.exact.branch` tells; w = q₀ + q₁q.
 """
 
 import math
@@ -15,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..exact.branch import STRETCH
 from ..ground.compile import kernel
 from .polynomial import CELL, RUPTURE_CELL, in_three, in_two, rate_in_three
 
@@ -29,15 +32,19 @@ U_SHIFT, U_FIRST, U_COUNT, Q_SHIFT, Q_FIRST, Q_COUNT, SIZE_CELLS, CELLS = range(
 
 _MANTISSA = 52
 _MANTISSA_BITS, _BITS_OF_ONE = (1 << _MANTISSA) - 1, 1023 << _MANTISSA
-# Five points of Gauss and Legendre are exact for the product of q and a polynomial of the seventh degree.
-_ABSCISSAE = (-0.906179845938664, -0.5384693101056831, 0.0, 0.5384693101056831, 0.906179845938664)
-_WEIGHTS = (0.23692688505618908, 0.47862867049936647, 0.5688888888888889, 0.47862867049936647, 0.23692688505618908)
+# Eight points of Gauss and Legendre are exact for the product of q and a polynomial of the seventh degree, and nearly
+# so where the rate of D in q is a fraction.
+_ABSCISSAE, _WEIGHTS = (tuple(each.tolist()) for each in np.polynomial.legendre.leggauss(8))
+_STRETCH = STRETCH * math.sqrt(2.0 / math.pi)  # d over R̄√c*
+# About the third of the high half of the bits of a number are those of its cube root.
+_THIRD, _CUBE_ROOT_BITS = 0x55555556, 0x2A9F789300000000
+_LEAST_SQUARE = 1e-60  # of s; what is added is lost by rounding
 
 
 class Grid(NamedTuple):
     """A table as compiled code sees it: the argument of all kernels."""
 
-    lines: Floats  # (rows, 6): x₀, x₁ with x = x₀ + x₁c* from -1 to 1, then u₀, u₁, q₀, q₁
+    lines: Floats  # (rows, 6): x₀, x₁ of the control from -1 to 1, then u₀, u₁, q₀, q₁
     cuts: Integers  # (rows, 8): how w is cut into cells, and the number of cells before those of the row
     rupture: Floats  # coefficients of D_c/R̄
     force: Floats  # of λ/R̄
@@ -95,6 +102,32 @@ def within(number: float, low: float, high: float) -> float:
 
 
 @kernel
+def cube_root(number: float) -> float:
+    """Cube root of a positive number, to 14 digits: the same bits everywhere, which a library does not promise."""
+    bits = np.float64(number).view(np.int64)
+    third = ((bits >> 32) * _THIRD) >> 32
+    root: float = np.int64((third << 32) + _CUBE_ROOT_BITS).view(np.float64)
+    for _ in range(2):
+        cube = root * root * root
+        root = root * ((cube + 2.0 * number) / (2.0 * cube + number))
+    return root
+
+
+@kernel
+def size_of(grid: Grid, s: float) -> float:
+    """The size variable u of s = (R1 - R2)/(R1 + R2)."""
+    if grid.sides == 2:
+        return s
+    return cube_root(s * s + _LEAST_SQUARE) if grid.is_volume else s * s
+
+
+@kernel
+def logarithmic(control: float, middle: float) -> float:
+    """About a third of the logarithm of a control over the middle of its cell."""
+    return (control - middle) * (control + middle) / (control * (control + 4.0 * middle) + middle * middle)
+
+
+@kernel
 def reduce_pair(grid: Grid, control: float, radius1: float, radius2: float, surface_tension: float) -> Reduced:
     """R̄, c* and u of a pair. It has no branches, so that the compiler makes vector instructions of a loop over it."""
     small = radius1 if radius1 < radius2 else radius2
@@ -109,7 +142,7 @@ def reduce_pair(grid: Grid, control: float, radius1: float, radius2: float, surf
     return Reduced(
         radius if is_covered else math.nan,
         held,
-        s * s if grid.sides == 1 else s,
+        size_of(grid, s),
         1 if (grid.sides == 2) & (radius1 > radius2) else 0,
     )
 
@@ -123,15 +156,21 @@ def place_of(grid: Grid, control: float, size: float, side: int) -> Place:
     row = np.uint64(side * grid.cells + locate(control, grid.shift, grid.first)[0])
     w = grid.lines[row, U0] + grid.lines[row, U1] * size
     size_cell, y = locate(w, grid.cuts[row, U_SHIFT], grid.cuts[row, U_FIRST])
-    x = grid.lines[row, X0] + grid.lines[row, X1] * control
+    x = grid.lines[row, X1] * logarithmic(control, grid.lines[row, X0])
     return Place(np.int64(row), size_cell + grid.cuts[row, SIZE_CELLS], x, y)  # type: ignore[arg-type]
 
 
 @kernel
-def q_of(separation: float, rupture: float) -> float:
-    """√(1 - D/D_c), 0 beyond rupture; solids that overlap count as touching."""
+def bend_of(grid: Grid, control: float, rupture: float) -> float:
+    """D_c/d of a reduced control and a rupture distance over R̄; 0 under suction, where q is not stretched."""
+    return rupture / (_STRETCH * math.sqrt(control)) if grid.is_volume else 0.0
+
+
+@kernel
+def q_of(separation: float, rupture: float, bend: float) -> float:
+    """√((1 - D/D_c)/(1 + D/d)), 0 beyond rupture; solids that overlap count as touching."""
     share = (separation if separation > 0.0 else 0.0) / rupture
-    return math.sqrt(1.0 - share if share < 1.0 else 0.0)
+    return math.sqrt((1.0 - share) / (1.0 + bend * share) if share < 1.0 else 0.0)
 
 
 @kernel
@@ -172,21 +211,28 @@ def rupture_star(grid: Grid, place: Place) -> float:
     return in_two(grid.rupture, place.size_cell * RUPTURE_CELL, place.x, place.y)
 
 
+class Found(NamedTuple):
+    """A pair in the table."""
+
+    pair: Reduced
+    place: Place
+    rupture: float  # D_c, [m]
+    bend: float  # D_c/d
+
+
 @kernel
-def find(
-    grid: Grid, control: float, radius1: float, radius2: float, surface_tension: float
-) -> tuple[Reduced, Place, float]:
-    """A pair reduced, where it lies in the table, and its rupture distance, [m]."""
+def find(grid: Grid, control: float, radius1: float, radius2: float, surface_tension: float) -> Found:
+    """Reduce a pair, and find where it lies in the table, and where its bridge breaks."""
     pair = reduce_pair(grid, control, radius1, radius2, surface_tension)
     place = place_of(grid, pair.control, pair.size, pair.side)
-    rupture = pair.radius * rupture_star(grid, place)
-    return pair, place, rupture
+    rupture = rupture_star(grid, place)
+    return Found(pair, place, pair.radius * rupture, bend_of(grid, pair.control, rupture))
 
 
 @kernel
 def rupture_distance(grid: Grid, control: float, radius1: float, radius2: float, surface_tension: float) -> float:
     """Separation at which the bridge breaks, [m]; 0 where there is none."""
-    return find(grid, control, radius1, radius2, surface_tension)[2]
+    return find(grid, control, radius1, radius2, surface_tension).rupture
 
 
 @kernel
@@ -194,10 +240,10 @@ def force(
     grid: Grid, separation: float, control: float, radius1: float, radius2: float, surface_tension: float
 ) -> float:
     """Attraction of two solids, [N]: 0 from the rupture distance on."""
-    pair, place, rupture = find(grid, control, radius1, radius2, surface_tension)
+    pair, place, rupture, bend = find(grid, control, radius1, radius2, surface_tension)
     if not gap_of(separation) < rupture:
         return 0.0 if gap_of(separation) >= rupture else math.nan
-    cell, t = cell_of(grid, place, q_of(separation, rupture))
+    cell, t = cell_of(grid, place, q_of(separation, rupture, bend))
     return 2.0 * math.pi * surface_tension * pair.radius * in_three(grid.force, cell * CELL, place.x, place.y, t)
 
 
@@ -214,10 +260,10 @@ def liquid(
     grid: Grid, separation: float, control: float, radius1: float, radius2: float, surface_tension: float
 ) -> float:
     """Liquid volume under suction, [m³], or suction at constant volume, [Pa]; NaN where there is no bridge."""
-    pair, place, rupture = find(grid, control, radius1, radius2, surface_tension)
+    pair, place, rupture, bend = find(grid, control, radius1, radius2, surface_tension)
     if not gap_of(separation) < rupture:
         return math.nan
-    cell, t = cell_of(grid, place, q_of(separation, rupture))
+    cell, t = cell_of(grid, place, q_of(separation, rupture, bend))
     unit = liquid_unit(grid, pair.control, pair.radius, surface_tension)
     return unit * in_three(grid.liquid, cell * CELL, place.x, place.y, t)
 
@@ -228,24 +274,26 @@ def stiffness(
 ) -> float:
     """Rate dF/dD with the control held, [N/m]; 0 in an overlap, where the force is that at contact; NaN without bridge.
 
-    dq/dD = -1/(2 q D_c).
+    dq/dD = -(1 + D_c/d)/(2 q D_c (1 + D/d)²).
     """
-    pair, place, rupture = find(grid, control, radius1, radius2, surface_tension)
+    pair, place, rupture, bend = find(grid, control, radius1, radius2, surface_tension)
     if not gap_of(separation) < rupture:
         return math.nan
     if separation < 0.0:
         return 0.0
-    q = q_of(separation, rupture)
+    q = q_of(separation, rupture, bend)
     cell, t = cell_of(grid, place, q)
     low, high = ends_of(grid, place.row, cell)
-    t_rate = 2.0 / (high - low) * grid.lines[place.row, Q1] * (-0.5 / (q * rupture))
+    stretched = 1.0 + bend * (separation / rupture)
+    q_rate = -0.5 * (1.0 + bend) / (q * rupture * stretched * stretched)
+    t_rate = 2.0 / (high - low) * grid.lines[place.row, Q1] * q_rate
     rate = rate_in_three(grid.force, cell * CELL, place.x, place.y, t) * t_rate
     return 2.0 * math.pi * surface_tension * pair.radius * rate
 
 
 @kernel
-def _integral(grid: Grid, place: Place, end: float) -> float:
-    """∫ λ* q dq from rupture to an end, piece by piece and hence exactly the integral of the polynomials."""
+def _integral(grid: Grid, place: Place, bend: float, end: float) -> float:
+    """∫ λ* q (1 + b)/(1 + b q²)² dq from rupture to an end, piece by piece, with b = D_c/d."""
     line, cut = grid.lines[place.row], grid.cuts[place.row]
     at_rupture, _ = cell_of(grid, place, 0.0)
     last, _ = cell_of(grid, place, end)
@@ -260,7 +308,9 @@ def _integral(grid: Grid, place: Place, end: float) -> float:
         for j in range(len(_ABSCISSAE)):
             q = 0.5 * (low + high) + half * _ABSCISSAE[j]
             _, t = locate(line[Q0] + line[Q1] * q, cut[Q_SHIFT], cut[Q_FIRST])
-            total += half * _WEIGHTS[j] * q * in_three(grid.force, cell * CELL, place.x, place.y, t)
+            bent = 1.0 + bend * q * q
+            weight = half * _WEIGHTS[j] * q * (1.0 + bend) / (bent * bent)
+            total += weight * in_three(grid.force, cell * CELL, place.x, place.y, t)
         low = high
     return total
 
@@ -271,12 +321,12 @@ def energy(
 ) -> float:
     """Potential with F = dE/dD, [J]: minus the work that breaks the bridge, 0 from the rupture distance on.
 
-    E(D) = -∫ F dD from D to D_c = -2 D_c ∫ F q dq from 0 to q(D).
+    E(D) = -∫ F dD from D to D_c, with dD/dq = -2 D_c q (1 + b)/(1 + b q²)².
     """
-    pair, place, rupture = find(grid, control, radius1, radius2, surface_tension)
+    pair, place, rupture, bend = find(grid, control, radius1, radius2, surface_tension)
     if not gap_of(separation) < rupture:
         return 0.0 if gap_of(separation) >= rupture else math.nan
     unit = 2.0 * math.pi * surface_tension * pair.radius
-    work = 2.0 * rupture * unit * _integral(grid, place, q_of(separation, rupture))
+    work = 2.0 * rupture * unit * _integral(grid, place, bend, q_of(separation, rupture, bend))
     overlap = -separation if separation < 0.0 else 0.0
     return -work - overlap * force(grid, 0.0, control, radius1, radius2, surface_tension)

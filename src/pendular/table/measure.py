@@ -15,9 +15,11 @@ from numpy.typing import NDArray
 
 from ..exact.batch import RUPTURE as END
 from ..exact.batch import STABLE, answer
+from ..exact.branch import stretches_of
 from ..exact.equations import SUCTION, VOLUME
 from ..exact.state import State
 from .arrays import FORCE, LIQUID, RUPTURE, evaluate
+from .cuts import controls_at
 from .kernels import (
     Q0,
     Q1,
@@ -42,7 +44,7 @@ Integers = NDArray[np.int64]
 
 SAFETY = 1.75  # the stated bound over the largest error that the search finds
 SEED = 20260
-_NEAREST_RUPTURE = 0.002  # in q: 1 - D/D_c = 4e-6
+NEAREST_RUPTURE = 1.0 - 4e-6  # D/D_c
 _CORNERS = np.array([[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]])  # of a cell of control and size
 _CURVES, _LEAST_CURVES = 8, 4000  # in each cell of control and size; in all, where there are few cells
 _PLACES = 16  # on a curve
@@ -83,25 +85,28 @@ class Errors(NamedTuple):
     liquid: Floats
 
 
-def measure(grid: Grid, task: Task) -> Bound:
-    """Search a table for its largest errors."""
+def measure(grid: Grid, task: Task, parts: Integers) -> tuple[Bound, Floats]:
+    """Search a table for its largest errors; and for the largest of the force in each part, whose number rows have."""
     random = np.random.default_rng(SEED)
-    worst, count = np.zeros(3), 0
+    worst, count, of_force = np.zeros(3), 0, np.zeros(1 + int(parts.max()))
     starts: list[list[tuple[Floats, Places]]] = [[], [], []]
     for places in all_cells(grid, random):
         errors = _errors(grid, task, places)
         count += errors.force.size
+        np.maximum.at(of_force, parts[places.cell[:, 0]], errors.force.max(axis=1))
         for kind, each in enumerate((errors.force, errors.rupture[:, None], errors.liquid)):
             worst[kind] = max(worst[kind], each.max())
             starts[kind].append(_worst_of(each, places))
     for kind, found in enumerate(starts):
         error, places = np.concatenate([each for each, _ in found]), _joined([each for _, each in found])
         chosen = np.argsort(-error)[:_WORST]
-        largest, compared = _climb(grid, task, kind, error[chosen], places.taken(chosen), random)
-        worst[kind] = max(worst[kind], largest)
+        reached, compared = _climb(grid, task, kind, error[chosen], places.taken(chosen), random)
+        worst[kind] = max(worst[kind], reached.max())
         count += compared
+        if kind == 0:
+            np.maximum.at(of_force, parts[places.cell[chosen, 0]], reached)
     force, rupture, liquid = (SAFETY * worst).tolist()
-    return Bound(force, rupture, liquid, count)
+    return Bound(force, rupture, liquid, count), SAFETY * of_force
 
 
 def _joined(parts: list[Places]) -> Places:
@@ -146,8 +151,8 @@ def _worst_of(errors: Floats, places: Places) -> tuple[Floats, Places]:
 
 def _climb(
     grid: Grid, task: Task, kind: int, error: Floats, places: Places, random: np.random.Generator
-) -> tuple[float, int]:
-    """Go from each place to a worse one in its cell, by random steps; return the largest error, and how many tried."""
+) -> tuple[Floats, int]:
+    """Go from each place to a worse one in its cell, by random steps; return the errors there, and how many tried."""
     count = 0
     for width in _WIDTHS:
         tried = places.taken(np.repeat(np.arange(error.size), _STEPS))
@@ -162,7 +167,7 @@ def _climb(
         places = places._replace(
             pair=np.where(is_worse[:, None], pair[best], places.pair), t=np.where(is_worse, t[best], places.t)
         )
-    return float(error.max()), count
+    return error, count
 
 
 def between(cell: Integers, place: Floats, shift: Integers, first: Integers) -> Floats:
@@ -175,37 +180,42 @@ def position(grid: Grid, task: Task, places: Places) -> tuple[Floats, Floats, Fl
     """Control, size and q of places, inside the range that is tabulated."""
     row, size_cell = places.cell.T
     line, cut = grid.lines[row], grid.cuts[row]
-    control = np.clip((places.pair[:, 0] - line[:, X0]) / line[:, X1], task.low, task.high)
+    control = np.clip(controls_at(places.pair[:, 0], line[:, X0], line[:, X1]), task.low, task.high)
     size = np.full(control.size, task.sizes[0])
     if task.sizes[1] > task.sizes[0]:
         w = between(size_cell, places.pair[:, 1], cut[:, U_SHIFT], cut[:, U_FIRST])
         size = np.clip((w - line[:, U0]) / line[:, U1], *task.sizes)
     w = between(places.q_cell, places.t, cut[:, Q_SHIFT, None], cut[:, Q_FIRST, None])
-    return control, size, np.clip((w - line[:, Q0, None]) / line[:, Q1, None], _NEAREST_RUPTURE, 1.0)
+    return control, size, np.clip((w - line[:, Q0, None]) / line[:, Q1, None], 0.0, 1.0)
 
 
-def _exact(task: Task, pairs: Floats, q: Floats) -> tuple[Floats, Floats]:
-    """Exact forces and liquids, (curves, q, 2), and rupture distances; NaN where there is no bridge."""
-    states, rupture = exact_states(task, pairs, q)
-    force, volume, curvature = np.moveaxis(states[..., _COLUMNS], -1, 0)
-    return np.stack([force, curvature if task.is_volume else volume], axis=-1), rupture
+class Truth(NamedTuple):
+    """Exact bridges on curves; NaN where there is none."""
+
+    states: Floats  # (curves, q, fields)
+    separation: Floats  # (curves, q)
+    rupture: Floats  # (curves,)
 
 
-def exact_states(task: Task, pairs: Floats, q: Floats) -> tuple[Floats, Floats]:
-    """Exact bridges, (curves, q, fields), and rupture distances; NaN where there is none."""
+def exact_states(task: Task, pairs: Floats, q: Floats, nearest: float = 1.0) -> Truth:
+    """Exact bridges of pairs, each at its own row of q, up to a share of the rupture distance."""
     held = VOLUME if task.is_volume else SUCTION
     rupture = answer(END, held, np.column_stack([np.zeros(len(pairs)), pairs]))[0][:, 0]
-    gap = rupture[:, None] * (1.0 - q * q)
+    bend = rupture / stretches_of(pairs) if task.is_volume else np.zeros(len(pairs))
+    share = (1.0 - q * q) / (1.0 + bend[:, None] * q * q)
+    gap = rupture[:, None] * np.minimum(share, nearest)
     states, _ = answer(STABLE, held, np.column_stack([gap.ravel(), np.repeat(pairs, q.shape[1], axis=0)]))
-    return states.reshape(*q.shape, -1), rupture
+    return Truth(states.reshape(*q.shape, -1), gap, rupture)
 
 
 def _errors(grid: Grid, task: Task, places: Places) -> Errors:
     """Errors of a table at places; where it holds no bridge and there is one, the error of the liquid is infinite."""
     control, size, q = position(grid, task, places)
     pairs = pairs_of(task, control, size, places.cell[:, 0] // grid.cells)
-    exact, rupture = _exact(task, pairs, np.column_stack([q, np.broadcast_to(_SCALE, (control.size, _SCALE.size))]))
-    gap = rupture[:, None] * (1.0 - q * q)
+    all_q = np.column_stack([q, np.broadcast_to(_SCALE, (control.size, _SCALE.size))])
+    states, gap, rupture = exact_states(task, pairs, all_q, NEAREST_RUPTURE)
+    force, volume, curvature = np.moveaxis(states[..., _COLUMNS], -1, 0)
+    exact_liquid = curvature if task.is_volume else volume
     with np.errstate(divide="ignore"):
         radius1, radius2 = 1.0 / pairs[:, 1], 1.0 / pairs[:, 3]
 
@@ -216,10 +226,10 @@ def _errors(grid: Grid, task: Task, places: Places) -> Errors:
         return out.reshape(-1, columns)
 
     columns = q.shape[1]
-    contact = exact[:, columns]  # the first of the places of the scale
-    largest = np.abs(exact[..., 0]).max(axis=1, keepdims=True)
-    unit = 1.0 / np.sqrt(control[:, None]) if task.is_volume else contact[:, 1:]
-    of_force = np.abs(answers(FORCE, columns) / (2.0 * math.pi) - exact[:, :columns, 0]) / largest
-    of_liquid = np.abs(answers(LIQUID, columns) - exact[:, :columns, 1]) / unit
+    contact = exact_liquid[:, columns, None]  # the first of the places of the scale
+    largest = np.abs(force).max(axis=1, keepdims=True)
+    unit = 1.0 / np.sqrt(control[:, None]) if task.is_volume else contact
+    of_force = np.abs(answers(FORCE, columns) / (2.0 * math.pi) - force[:, :columns]) / largest
+    of_liquid = np.abs(answers(LIQUID, columns) - exact_liquid[:, :columns]) / unit
     of_rupture = np.abs(answers(RUPTURE, 1)[:, 0] / rupture - 1.0)
     return Errors(*(np.where(np.isnan(errors), math.inf, errors) for errors in (of_rupture, of_force, of_liquid)))

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .kernels import CELLS, Q0, Q1, Q_COUNT, Q_FIRST, Q_SHIFT, SIZE_CELLS, U0, U1, U_COUNT, U_FIRST, U_SHIFT, X1
+from .kernels import CELLS, Q0, Q1, Q_COUNT, Q_FIRST, Q_SHIFT, SIZE_CELLS, U0, U1, U_COUNT, U_FIRST, U_SHIFT, X0, X1
 from .polynomial import CELL, RUPTURE_CELL
 
 __all__ = ["CUT", "LINE", "MOST_ROWS", "Unsound", "refuse_unsound", "require"]
@@ -88,14 +88,15 @@ def _refuse_wrong_cuts(description: Mapping[str, Any], lines: Floats, cuts: Inte
     ends = np.array(description["range"], float)
     control = _cell(ends[:2], shift, first)
     s = (1.0 - ends[2:]) / (1.0 + ends[2:])
-    sizes = s * s if len(lines) == rows else s
+    power = 1.0 if len(lines) > rows else 2.0 / 3.0 if description["control"] == "volume" else 2.0
+    sizes = np.abs(s) ** power  # by rounding s may be a little below 0
     w_sizes = lines[:, U0, None] + lines[:, U1, None] * sizes
     w_q = lines[:, Q0, None] + lines[:, Q1, None] * np.array([0.0, 1.0])
     is_right = np.all((control >= 0) & (control < rows))
     for w, (w_shift, w_first, count) in zip((w_sizes, w_q), parts, strict=True):
         cell = _cell(w, w_shift[:, None], w_first[:, None])
         is_right &= np.all((cell >= 0) & (cell < count[:, None]))
-    is_right &= np.all((lines[:, Q1] != 0.0) & (lines[:, X1] >= 0.0))
+    is_right &= np.all((lines[:, Q1] != 0.0) & (lines[:, X0] > 0.0) & (lines[:, X1] >= 0.0))
     is_shared = np.concatenate([[False], (cuts[1:] == cuts[:-1]).all(axis=1)])
     own = cuts[~is_shared]
     counts = np.column_stack([own[:, U_COUNT], own[:, U_COUNT] * own[:, Q_COUNT]])

@@ -14,9 +14,10 @@ from ..ground.check import angle, as_path, in_range, numbers, one_of, quantity, 
 from ..ground.warn import warn
 from . import binary, storage
 from .arrays import ENERGY, FORCE, LIQUID, RUPTURE, STIFFNESS, evaluate
-from .build import build_grid, empty_grid, sample_range
+from .build import Octave, build_octave, empty_grid, join, octaves_of_rows, sample_range
 from .channels import fill, known
 from .curve import ForceCurve, curve_of
+from .cuts import octave_of
 from .holding import refuse_without_contact
 from .kernels import Grid
 from .measure import Bound, measure
@@ -29,9 +30,9 @@ Floats = NDArray[np.float64]
 
 _RANGES = {"suction": (1e-2, 1e8), "volume": (1e-9, 1.0)}
 # Of the tolerance for one coordinate: what the coordinates do together is known afterwards.
-_SHARE, _LEAST_STEP, _MOST_BUILDS = 0.15, 0.5, 5
+_SHARE, _LEAST_STEP, _MOST_BUILDS = 0.3, 0.4, 7
 _HOPELESS, _AIM = 30.0, 0.7  # an error over the tolerance that finer cells do not mend; what they aim at
-_TOLERANCES = {"suction": 1e-8, "volume": 1e-7}
+_TOLERANCE = 1e-8
 _ARRAYS = ("lines", "cuts", "rupture", "force", "liquid")
 _UNITS = {"suction": "Pa", "volume": "m**3"}
 
@@ -320,7 +321,7 @@ def tabulate(
     radius_ratio : (float, float)
         Range of the larger radius over the smaller, [-]; infinite for a plane.
     tolerance : float, optional
-        Error of the force over the force at contact, [-]; 1e-8 under suction and 1e-7 at constant volume by default.
+        Error of the force over the force at contact, [-]; 1e-8 by default.
 
     Returns
     -------
@@ -359,10 +360,10 @@ def tabulate(
     angles = np.broadcast_to(angle("contact_angle", contact_angle), (2,))
     low, high = _range("reduced", _RANGES[control] if reduced is None else reduced, 0.0, inf)
     low_ratio, high_ratio = _range("radius_ratio", radius_ratio, 1.0, inf, "[]")
-    wanted = _TOLERANCES[control] if tolerance is None else scalar("tolerance", tolerance, "")
+    wanted = _TOLERANCE if tolerance is None else scalar("tolerance", tolerance, "")
     in_range("tolerance", np.asarray(wanted), 1e-10, 1e-2)
     pair = float(angles[0]), float(angles[1])
-    task = Task(pair, control == "volume", low, high, low_ratio, high_ratio, wanted, 1.0)
+    task = Task(pair, control == "volume", low, high, low_ratio, high_ratio, wanted, _SHARE)
     grid, bound = _build(task)
     reached_and_asked = (("force", bound.force, wanted), ("rupture distance", bound.rupture, 0.1 * wanted))
     for name, error, asked in reached_and_asked:
@@ -378,17 +379,25 @@ def _build(task: Task) -> tuple[Grid, Bound]:
     if task.is_volume:
         refuse_without_contact(task)
     samples = sample_range(task)
-    share = _SHARE
-    grid = build_grid(task._replace(share=share), samples)
-    bound = measure(grid, task)
+    first = octave_of(task.low)
+    shares = np.full(len(samples), _SHARE)
+    octaves: list[Octave] = []
+    for i, sample in enumerate(samples):
+        octaves.append(build_octave(task, sample, first + i, octaves[-1] if octaves else None))
+    grid = join(task, octaves)
+    bound, errors = measure(grid, task, octaves_of_rows(grid, len(octaves)))
     for _ in range(1, _MOST_BUILDS):
-        if not task.tolerance < bound.force < _HOPELESS * task.tolerance:
+        is_left = (errors > task.tolerance) & (errors < _HOPELESS * task.tolerance)
+        if not is_left.any():
             break
-        share *= max(_LEAST_STEP, _AIM * task.tolerance / bound.force)
-        finer = build_grid(task._replace(share=share), samples)
-        reached = measure(finer, task)
+        for i in np.flatnonzero(is_left).tolist():
+            shares[i] *= max(_LEAST_STEP, _AIM * task.tolerance / errors[i])
+            finer = task._replace(share=float(shares[i]))
+            octaves[i] = build_octave(finer, samples[i], first + i, octaves[i])
+        finer_grid = join(task, octaves)
+        reached, errors = measure(finer_grid, task, octaves_of_rows(finer_grid, len(octaves)))
         if reached.force < bound.force:
-            grid, bound = finer, reached
+            grid, bound = finer_grid, reached
     return grid, bound
 
 

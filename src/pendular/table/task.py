@@ -3,7 +3,13 @@
 import math
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
 _RUPTURE_SHARES = {False: 0.003, True: 0.03}  # of the tolerance, under suction and at constant volume, relative
+_MOST_RUPTURE = 1e-7  # of 4e-6, up to where before rupture the bound of the force holds
 _LEAST_COSINES = 1e-12  # cos θ1 + cos θ2, which is not quite 0 for two right angles
 
 
@@ -22,7 +28,7 @@ class Task(NamedTuple):
     @property
     def rupture_tolerance(self) -> float:
         """For one coordinate, relative; small, as a bridge near rupture feels the square root of the error."""
-        return _RUPTURE_SHARES[self.is_volume] * self.tolerance
+        return min(_RUPTURE_SHARES[self.is_volume] * self.tolerance, _MOST_RUPTURE)
 
     @property
     def is_dry(self) -> bool:
@@ -35,10 +41,22 @@ class Task(NamedTuple):
         return 1 if self.angles[0] == self.angles[1] else 2
 
     @property
+    def size_power(self) -> float:
+        """Power of s = (R1 - R2)/(R1 + R2) that is the size variable u."""
+        if self.sides == 2:
+            return 1.0
+        return 2.0 / 3.0 if self.is_volume else 2.0
+
+    @property
     def sizes(self) -> tuple[float, float]:
         """Range of the size variable u."""
-        low, high = ((1.0 - 1.0 / ratio) / (1.0 + 1.0 / ratio) for ratio in (self.low_ratio, self.high_ratio))
-        return (low * low, high * high) if self.sides == 1 else (low, high)
+        ratios = np.array([self.low_ratio, self.high_ratio])
+        low, high = ((1.0 - 1.0 / ratios) / (1.0 + 1.0 / ratios)) ** self.size_power
+        return float(low), float(high)
+
+    def s_of(self, size: Floats) -> Floats:
+        """|s| of sizes."""
+        return np.asarray(np.maximum(size, 0.0) ** (1.0 / self.size_power))
 
 
 def refuse_dry(angles: tuple[float, float]) -> None:

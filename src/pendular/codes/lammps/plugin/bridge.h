@@ -21,13 +21,14 @@ struct Bridge {
     LAMMPS_NS::tagint tag1 = 0, tag2 = 0;
     double held = 0.0;    /* suction or volume */
     double rupture = 0.0; /* separation at which it breaks */
-    double offset = 0.0, slope = 0.0, series[TERMS] = {};
+    double offset = 0.0, slope = 0.0, bend = 0.0, series[TERMS] = {};
     std::unique_ptr<pendular_state> state; /* to start from, where the solver is asked */
 
     /* Attraction within the cell, NaN beyond. */
     double pull(double separation) const
     {
-        const double t = offset + slope * std::sqrt(1.0 - separation / rupture);
+        const double share = separation / rupture;
+        const double t = offset + slope * std::sqrt((1.0 - share) / (1.0 + bend * share));
         double total = series[TERMS - 1];
         if (!(std::fabs(t) <= 1.0 + 1e-9))
             return NAN;

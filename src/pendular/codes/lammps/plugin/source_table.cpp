@@ -79,7 +79,7 @@ namespace {
             const int32_t *cut = table.cuts + static_cast<int64_t>(place.row) * PENDULAR_TABLE_CUT;
             double w;
             const int32_t cell
-                = pendular_table_q_cell(&table, place.row, pendular_table_q(separation, place.rupture), &w);
+                = pendular_table_q_cell(&table, place.row, pendular_table_q(&place, separation), &w);
             const int32_t shift = cut[PENDULAR_TABLE_Q_SHIFT], first = cut[PENDULAR_TABLE_Q_FIRST];
             const double low = pendular_table_edge(cell, shift, first);
             const double scale = 2.0 / (pendular_table_edge(cell + 1, shift, first) - low);
@@ -90,6 +90,7 @@ namespace {
                 coefficient *= unit;
             bridge.offset = scale * (line[PENDULAR_TABLE_Q0] - low) - 1.0;
             bridge.slope = scale * line[PENDULAR_TABLE_Q1];
+            bridge.bend = place.bend;
         }
     };
 
