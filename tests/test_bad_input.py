@@ -44,6 +44,10 @@ CALLS = {
     "bridge": lambda known: (pl.bridge, WET | {"separation": 0.0, "branch": "stable", "method": "exact"}),
     "rupture": lambda known: (pl.rupture, WET | {"limit": "fold", "method": "exact"}),
     "curve": lambda known: (pl.curve, WET | {"points": 5}),
+    "path": lambda known: (
+        pl.path,
+        WET | {"separation": [0.0, 1e-6], "contact_line": "hysteresis", "advancing_angle": 0.4, "receding_angle": 0.2},
+    ),
     "Bridge.profile": lambda known: (pl.bridge(separation=0.0, **WET).profile, {"points": 5}),
     "compare": lambda known: (pl.compare, WET | {"points": 5}),
     "error_map": lambda known: (pl.error_map, {"law": "zhao2020", "fraction": 0.5}),

@@ -61,6 +61,8 @@ from .packing.state import State as State
 from .packing.state import load_state as load_state
 from .packing.wet import wet as wet
 from .packing.wetted import Wet as Wet
+from .paths import BridgePath as BridgePath
+from .paths import path as path
 from .table import Table as Table
 from .table import ToleranceWarning as ToleranceWarning
 from .table import load_table as load_table

@@ -78,6 +78,14 @@ def system_of(length: Row, liquid: Row, first: End, second: End, held: Held, wit
     """All equations at an arc with its length, its volume of revolution and its ends, in any four numbers."""
     contact1 = contact_with(held.first, first.radius, first.cos_slope, first.sin_slope)
     contact2 = contact_with(held.second, second.radius, second.cos_slope, second.sin_slope)
+    return system_between(length, liquid, first, second, contact1, contact2, with_volume)
+
+
+@kernel
+def system_between(
+    length: Row, liquid: Row, first: End, second: End, contact1: Contact, contact2: Contact, with_volume: bool
+) -> System:
+    """The same where it is known what the contact circles amount to."""
     first_gap = _less_height(length, contact1, first)
     if with_volume:
         liquid = _less_cap(_less_cap(liquid, contact1, first), contact2, second)

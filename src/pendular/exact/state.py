@@ -76,7 +76,8 @@ class Figure(NamedTuple):
 
 
 @kernel
-def _figure_of(z: Four) -> Figure:
+def figure_of(z: Four) -> Figure:
+    """What a meridian amounts to beside its equations."""
     middle, curvature = middle_of(z), curvature_of(z)
     necks, bulges = extreme_phases(z)
     across, axial = tensor_of(z)
@@ -167,7 +168,7 @@ def describe(z: Four, held: Held, symmetric: bool) -> Description:
     held_back = held_row(z, system, held)
     ladder = ladder_at(z, system)
     unstable = ladder.at_suction if held.control == SUCTION else ladder.at_volume
-    figure = _figure_of(z)
+    figure = figure_of(z)
     state = state_of(figure, system, held, first_row(z, system, symmetric), held_back, unstable)
     miss = miss_of(system, held, held_back.value, figure.middle_radius, figure.half_length)
     return Description(state, opening_of(z, system, held) > 0.0 and is_clear(z, system, held), miss)

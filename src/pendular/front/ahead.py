@@ -17,6 +17,7 @@ from ..laws import force_star, laws, rupture_star, rupture_work_star
 from ..packing.forces import contact_forces
 from ..packing.lattice import lattice_packing
 from ..packing.wet import wet
+from ..paths import path
 from ..table import tabulate
 
 __all__ = ["QUESTIONS", "Made", "compile_ahead"]
@@ -104,6 +105,10 @@ def _ask_fit() -> None:
     rates_of_force(VOLUME, _QUESTION, answer(STABLE, VOLUME, _QUESTION)[0])
 
 
+def _ask_path() -> None:
+    path(_PAIR, _GAPS, volume=1e-15, contact_line="pinned", liquid=_LIQUID)
+
+
 QUESTIONS: dict[str, Callable[[], None]] = {
     "bridges and rupture": _ask_bridges,
     "curves": _ask_curve,
@@ -112,4 +117,5 @@ QUESTIONS: dict[str, Callable[[], None]] = {
     "laws": _ask_laws,
     "heaps": _ask_heap,
     "fits": _ask_fit,
+    "paths": _ask_path,
 }
