@@ -308,11 +308,14 @@ def test_a_humidity_is_a_suction():
             {"contact_line": "pinned"},
             "advancing_angle: has no effect with contact_line 'pinned'; 'hysteresis' heeds it",
         ),
-        ({"receding_angle": 1.2}, "receding_angle[0]: 1.2 rad is not <= 1.0472, the advancing angle"),
+        (
+            {"receding_angle": 1.2},
+            "receding_angle[0]: 1.2 rad (68.75°) is not <= 1.0472 rad (60°), the advancing angle",
+        ),
         (
             {"advancing_angle": (1.1, 0.9)},
-            "contact_angle[1]: 1.0472 rad, with which the path starts, is not in [0.523599, 0.9], from the receding to "
-            "the advancing angle",
+            "contact_angle[1]: 1.0472 rad (60°), with which the path starts, is not between the receding angle, "
+            "0.523599 rad (30°), and the advancing one, 0.9 rad (51.57°)",
         ),
         (
             {"advancing_angle": (1.1, 1.2, 1.3)},

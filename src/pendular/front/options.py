@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 __all__ = [
     "SEPARATIONS",
     "Question",
+    "describe_course",
     "describe_liquid",
     "in_terms_of_options",
     "read_contact_angle",
@@ -41,6 +42,7 @@ _ROOM_TEMPERATURE = "20degC"
 _FREEZING_POINT = 273.15  # 0 °C, [K]
 
 _CONTROL_WORDS = {"humidity": "relative humidity"}
+_MOST_TOLD = 5  # values of a course
 
 # Where the library calls an argument otherwise than the option, and what it advises to a programmer.
 _OPTIONS = {
@@ -50,6 +52,10 @@ _OPTIONS = {
     "name": "liquid",
     "force_error": "force-error",
     "jump_in": "jump-in",
+    "contact_angle": "contact-angle",
+    "contact_line": "contact-line",
+    "advancing_angle": "advancing-angle",
+    "receding_angle": "receding-angle",
 }
 _ADVICE = {
     "make Liquid(surface_tension=...)": "give surface-tension in place of the name",
@@ -58,11 +64,13 @@ _ADVICE = {
     "exactly one of suction, volume, humidity is needed": (
         "write one of --suction 20kPa, --volume 5pL, --humidity 90%"
     ),
+    "contact_line '": "contact-line '",
     "give a separation near to the one that is meant as well": "write --separation near to the one that is meant, too",
     "; write (angle, None) or (None, angle)": "",
     "(None, angle) names the other": "--half-filling-angle2 names the other",
     "(angle, None) names the other": "--half-filling-angle names the other",
     "ask bridge(branch='unstable')": "ask pendular bridge --branch unstable",
+    "advancing_angle and receding_angle": "advancing-angle and receding-angle",
     "reduced_suction and reduced_volume": "reduced-suction and reduced-volume",
 }
 
@@ -390,6 +398,19 @@ def _describe_control(control: dict[str, Values]) -> str:
     )
 
 
+def describe_course(name: str, values: Values) -> str:
+    """What goes from one value to the next.
+
+    Examples
+    --------
+    >>> describe_course("separation", [5e-6, 1e-6, 2e-5])
+    'separation 5 µm to 1 µm to 20 µm'
+    """
+    each = [_one_of_control(name, one) for one in (values if isinstance(values, list) else [values])]
+    few = each if len(each) <= _MOST_TOLD else [each[0], "…", each[-1]]
+    return f"{_CONTROL_WORDS.get(name, name)} {' to '.join(few)}"
+
+
 def _one_of_control(name: str, value: float) -> str:
-    units = {"suction": "Pa", "volume": "m^3"}
+    units = {"suction": "Pa", "volume": "m^3", "separation": "m"}
     return show(value, units[name]) if name in units else f"{100.0 * value:.6g} %"

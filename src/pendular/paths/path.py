@@ -166,13 +166,17 @@ def _angles_of(pair: Pair, contact_line: ContactLine, advancing: PerSolid | None
     for solid in (0, 1):
         low, high, angle_there = inner[solid], outer[solid], starting[solid]
         if low > high:
-            raise ValueError(f"receding_angle[{solid}]: {low:.6g} rad is not <= {high:.6g}, the advancing angle")
+            raise ValueError(f"receding_angle[{solid}]: {_shown(low)} is not <= {_shown(high)}, the advancing angle")
         if not low <= angle_there <= high:
             raise ValueError(
-                f"contact_angle[{solid}]: {angle_there:.6g} rad, with which the path starts, is not in "
-                f"[{low:.6g}, {high:.6g}], from the receding to the advancing angle"
+                f"contact_angle[{solid}]: {_shown(angle_there)}, with which the path starts, is not between the "
+                f"receding angle, {_shown(low)}, and the advancing one, {_shown(high)}"
             )
     return _Angles(starting, outer, inner)
+
+
+def _shown(radians: float) -> str:
+    return f"{radians:.6g} rad ({math.degrees(radians):.4g}°)"
 
 
 def _of_both(name: str, value: Any) -> tuple[float, float]:

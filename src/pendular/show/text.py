@@ -8,7 +8,7 @@ import json
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -37,6 +37,7 @@ __all__ = [
     "state_rows",
     "state_table",
     "sweep_table",
+    "table_of",
     "with_asked",
 ]
 
@@ -54,6 +55,7 @@ _BUT_SEPARATION = ["force", *(name for name in UNITS if name not in ("separation
 _WITHOUT_BRIDGE = ["force", "exists"]
 _MOST_ROWS = 24  # of a curve in a table for people
 
+AnyBridge = TypeVar("AnyBridge", bound=Bridge)
 Row = tuple[str, str, str]  # name, value with unit, meaning
 
 
@@ -97,7 +99,7 @@ def spread(name: str, unit: str, values: Any, bridge: Bridge) -> Column:
     return Column(name, unit, np.broadcast_to(values, np.shape(bridge.exists)))
 
 
-def with_asked(bridge: Bridge, **asked: ArrayLike) -> Bridge:
+def with_asked(bridge: AnyBridge, **asked: ArrayLike) -> AnyBridge:
     """Answer that tells what was asked also where there is no bridge, so that each point is known.
 
     Parameters
@@ -313,9 +315,14 @@ def sweep_table(columns: list[Column], bridge: Bridge) -> Table:
     -------
     rich.table.Table
     """
-    table = _table_of_columns(columns, "bridge")
     words = np.where(bridge.exists, np.where(bridge.stable, "stable", "unstable"), "none")
-    for row in zip(*(_cells(column.unit, column.values) for column in columns), words.tolist(), strict=True):
+    return table_of(columns, "bridge", words.tolist())
+
+
+def table_of(columns: list[Column], last: str, words: list[str]) -> Table:
+    """Table of numbers, a column each under its name and unit, and a last column of words."""
+    table = _table_of_columns(columns, last)
+    for row in zip(*(_cells(column.unit, column.values) for column in columns), words, strict=True):
         table.add_row(*row)
     return table
 

@@ -6,6 +6,7 @@ Each module holds the commands of one subject. To add one: write its module, whi
 
 from . import (  # noqa: F401, registers the commands
     bridges,
+    changes,
     compile,
     data,
     export,
