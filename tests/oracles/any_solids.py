@@ -208,7 +208,7 @@ def make(first, second, radius, suction, slope=None, *, longest=6.0, number=0):
     closes.terminal = winds.terminal = True
     start = [0.0, radius, -outward]
     events = (meets, closes, winds)
-    found = run(path, longest * radius, start, rtol=1e-8, events=events, max_step=0.1 * radius).t_events[0]
+    found = run(path, longest * radius, start, rtol=1e-8, events=events, max_step=0.01 * longest * radius).t_events[0]
     ends = [s for s in found if s > 1e-3 * radius]
     if len(ends) <= number:
         return None

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 from typer import Option
 
 from ..ground.units import Forms, Values, read, read_angle, read_angles, read_fractions, read_values, show
+from .solids import FORMS, describe_solid, read_size, read_solid
 
 # NumPy and all that needs it are imported by those who use it: the help is shown without.
 if TYPE_CHECKING:
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 
     from ..ask.face import Bridge, Pair
     from ..ask.liquid import Liquid
+    from ..ask.shapes import Shape
 
 __all__ = [
     "SEPARATIONS",
@@ -37,7 +39,6 @@ _SUCTIONS = Forms("20kPa", "1:20kPa:5", "1kPa,5kPa,20kPa")
 _VOLUMES = Forms("5pL", "1:5pL:5", "1pL,2pL,5pL")
 _HUMIDITIES = Forms("90%", "50%:90%:5", "50%,80%,90%")
 
-_PLANE = ("inf", "plane", "plate")
 _ROOM_TEMPERATURE = "20degC"
 _FREEZING_POINT = 273.15  # 0 °C, [K]
 
@@ -93,7 +94,9 @@ class Question(NamedTuple):
     @property
     def has_stable_bridges(self) -> bool:
         """Whether there are any: two planes have none under suction."""
-        return "volume" in self.control or any(math.isfinite(radius) for radius in map(float, self.pair.radii))
+        if "volume" in self.control or self.pair.shape is not None:
+            return True
+        return any(math.isfinite(radius) for radius in map(float, self.pair.radii))
 
     @property
     def held(self) -> dict[str, float]:
@@ -164,6 +167,8 @@ def read_question(
     diameter: Annotated[str | None, _text("or the diameter: 100um.", "LENGTH")] = None,
     radius2: Annotated[str | None, _text("Radius of the second solid, if another: 5um, or plane,", "LENGTH")] = None,
     diameter2: Annotated[str | None, _text("or its diameter: 10um.", "LENGTH")] = None,
+    solid: Annotated[str | None, _text(f"In place of a radius, another solid: {FORMS}.", "SOLID")] = None,
+    solid2: Annotated[str | None, _text("In place of the radius of the second: disc:1mm.", "SOLID")] = None,
     contact_angle: Annotated[str, _text("Contact angle: 20 or 20deg, 0.35rad.", "ANGLE")] = "0",
     contact_angle2: Annotated[str | None, _text("Contact angle on the second solid, if another: 60.", "ANGLE")] = None,
     suction: Annotated[str | None, _text("Held constant: gas minus liquid pressure, 20kPa,", "PRESSURE")] = None,
@@ -187,16 +192,16 @@ def read_question(
     from ..ask.face import Pair
 
     form = read_form(as_json, as_csv, plot)
-    radii = _radii(radius, diameter, radius2, diameter2)
+    solids = _solids((radius, diameter, solid), (radius2, diameter2, solid2))
     second = contact_angle if contact_angle2 is None else contact_angle2
     degrees = read_contact_angle("contact-angle", contact_angle), read_contact_angle("contact-angle2", second)
     control = _control(suction, volume, humidity)
     wetting = read_liquid(liquid, temperature, surface_tension, molar_volume, is_humid=humidity is not None)
     return Question(
-        pair=Pair(radii, (math.radians(degrees[0]), math.radians(degrees[1]))),
+        pair=Pair(solids, (math.radians(degrees[0]), math.radians(degrees[1]))),
         liquid=wetting,
         control=control,
-        title=_describe_solids(radii, degrees),
+        title=_describe_solids(solids, degrees),
         subtitle=f"{describe_liquid(wetting)}  ·  {_describe_control(control)}",
         form=form,
         picture=plot,
@@ -251,29 +256,27 @@ def read_form(as_json: bool, as_csv: bool, plot: Path | None) -> str:
     return "json" if as_json else "csv" if as_csv else "table"
 
 
-def _radii(radius: str | None, diameter: str | None, radius2: str | None, diameter2: str | None) -> tuple[float, float]:
-    """Radii of both solids, [m], each from whichever of its two sizes is given; the second is as the first without."""
-    first, second = _radius(radius, diameter, ""), _radius(radius2, diameter2, "2")
-    if first is None:
-        raise ValueError("radius: missing; write --radius 50um, or --diameter 100um")
-    return first, first if second is None else second
+_Given = tuple[str | None, str | None, str | None]  # radius, diameter, solid
 
 
-def _radius(radius: str | None, diameter: str | None, ending: str) -> float | None:
-    if radius is not None and diameter is not None:
-        raise ValueError(f"diameter{ending}: given together with radius{ending}; one of the two is needed")
+def _solids(first: _Given, second: _Given) -> "tuple[float | Shape, float | Shape]":
+    """Both solids, each from whatever it is given by; the second is as the first without."""
+    one, other = _solid(first, ""), _solid(second, "2")
+    if one is None:
+        raise ValueError("radius: missing; write --radius 50um, or --diameter 100um, or --solid cone:30deg")
+    return one, one if other is None else other
+
+
+def _solid(given: _Given, ending: str) -> "float | Shape | None":
+    radius, diameter, solid = given
+    names = [f"{name}{ending}" for name, text in zip(("radius", "diameter", "solid"), given, strict=True) if text]
+    if len(names) > 1:
+        raise ValueError(f"{names[1]}: given together with {names[0]}; one of the two is needed")
+    if solid is not None:
+        return read_solid(f"solid{ending}", solid)
     if diameter is not None:
-        return 0.5 * _size(f"diameter{ending}", diameter, "100um")
-    return None if radius is None else _size(f"radius{ending}", radius, "50um")
-
-
-def _size(name: str, text: str, example: str) -> float:
-    if text.strip().lower() in _PLANE:
-        return math.inf
-    size = read(name, text, "m", example)
-    if not size > 0.0:
-        raise ValueError(f"{name}: {text!r} is not > 0; write it like {example}")
-    return size
+        return 0.5 * read_size(f"diameter{ending}", diameter, "100um")
+    return None if radius is None else read_size(f"radius{ending}", radius, "50um")
 
 
 def read_contact_angle(name: str, text: str) -> float:
@@ -364,20 +367,28 @@ def _nameless(tension: float | None, volume: float | None, kelvin: float, *, is_
     return Liquid(tension, temperature=None if volume is None else kelvin, molar_volume=volume)
 
 
-def _describe_solids(radii: tuple[float, float], degrees: tuple[float, float]) -> str:
+def _describe_solids(solids: "tuple[float | Shape, float | Shape]", degrees: tuple[float, float]) -> str:
     first, second = (f"{angle:.4g}°" for angle in degrees)
     angles = f"contact angle {first}" if first == second else f"contact angles {first} and {second}"
-    if math.isinf(radii[0]) and math.isinf(radii[1]):
-        solids = "Two plates"
-    elif math.isinf(radii[0]):
-        solids = f"Plate and sphere of radius {show(radii[1], 'm', 4)}"
-    elif math.isinf(radii[1]):
-        solids = f"Sphere of radius {show(radii[0], 'm', 4)} on a plate"
-    elif radii[0] == radii[1]:
-        solids = f"Two spheres of radius {show(radii[0], 'm', 4)}"
+    one, other = solids
+    if isinstance(one, float) and isinstance(other, float):
+        words = _describe_radii(one, other)
     else:
-        solids = f"Spheres of radius {show(radii[0], 'm', 4)} and {show(radii[1], 'm', 4)}"
-    return f"{solids}, {angles}"
+        words = describe_solid(one)
+        words += " on both sides" if one == other else f" and {describe_solid(other)}"
+    return f"{words[0].upper()}{words[1:]}, {angles}"
+
+
+def _describe_radii(one: float, other: float) -> str:
+    if math.isinf(one) and math.isinf(other):
+        return "two plates"
+    if math.isinf(one):
+        return f"plate and sphere of radius {show(other, 'm', 4)}"
+    if math.isinf(other):
+        return f"sphere of radius {show(one, 'm', 4)} on a plate"
+    if one == other:
+        return f"two spheres of radius {show(one, 'm', 4)}"
+    return f"spheres of radius {show(one, 'm', 4)} and {show(other, 'm', 4)}"
 
 
 def describe_liquid(liquid: "Liquid") -> str:

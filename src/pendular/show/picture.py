@@ -13,7 +13,7 @@ from ..ground.colours import ACCENT, FAINT, GRAIN, GRAIN_EDGE, HAIR, INK, LIQUID
 from ..ground.files import whole
 from ..ground.look import dress
 from ..ground.units import Scale, scale_of, show
-from .scene import ASPECT, Scene, Window, far_window, mirrored, near_window, outline_of, round_length, scene_of
+from .scene import ASPECT, Scene, Window, far_window, mirrored, near_window, outlines_of, round_length, scene_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -163,9 +163,8 @@ def _draw_scene(axes: Axes, scene: Scene, window: Window, line_width: float = 1.
     axes.set(xlim=(-ASPECT, ASPECT), ylim=(-1.0, 1.0), xticks=[], yticks=[], aspect="equal")
     axes.spines[:].set_visible(False)
     axes.fill(*window.place(*mirrored(scene.x, scene.y)), color=LIQUID, lw=0, zorder=1)
-    for radius, pole, side in ((scene.radii[0], 0.0, -1.0), (scene.radii[1], scene.gap, 1.0)):
-        outline = window.place(*outline_of(radius, pole, side, window))
-        axes.fill(*outline, facecolor=GRAIN, edgecolor=GRAIN_EDGE, lw=line_width, zorder=2)
+    for outline in outlines_of(scene, window):
+        axes.fill(*window.place(*outline), facecolor=GRAIN, edgecolor=GRAIN_EDGE, lw=line_width, zorder=2)
     for side in (1.0, -1.0):
         meniscus = window.place(scene.x, side * scene.y)
         axes.plot(*meniscus, color=LIQUID_EDGE, lw=2.0 * line_width, solid_capstyle="round", zorder=4)

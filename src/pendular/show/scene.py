@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..ask.face import Bridge, Pair
+from ..ask.shapes import Disc, Shape
 
 __all__ = [
     "ASPECT",
@@ -15,7 +16,7 @@ __all__ = [
     "far_window",
     "mirrored",
     "near_window",
-    "outline_of",
+    "outlines_of",
     "round_length",
     "scene_of",
 ]
@@ -24,6 +25,8 @@ Floats = NDArray[np.float64]
 Point = tuple[float, float]
 
 ASPECT = 1.34  # width over height of the picture of the pair
+
+_SEEN = 1.5  # of a solid without an end, over the contact radius
 
 # A meniscus that is thinner than this part of its radius would be a hairline: its edge is drawn instead.
 _THINNEST = 0.05
@@ -62,20 +65,29 @@ class Window(NamedTuple):
 class Scene(NamedTuple):
     """What is drawn, [m]: the facing poles of the solids lie at x = 0 and x = gap on the axis y = 0."""
 
-    radii: Point
+    radii: Point  # of other solids than spheres, of what is seen of them
     gap: float
     x: Floats  # meridian; empty where there is no bridge
     y: Floats
+    solids: tuple[float | Shape, float | Shape]
 
 
 def scene_of(pair: Pair, bridge: Bridge, separation: float) -> Scene:
     """Solids at a separation, with the bridge between them if it exists."""
-    first, second = pair.radii
-    radii = float(first), float(second)
+    first, second = (solid if isinstance(solid, Shape) else float(solid) for solid in pair.solids)
+    widest = float(np.max(bridge.contact_radius)) if bridge.exists else separation
+    radii = _seen_of(first, widest), _seen_of(second, widest)
     if not bridge.exists:
-        return Scene(radii, separation, np.empty(0), np.empty(0))
+        return Scene(radii, separation, np.empty(0), np.empty(0), (first, second))
     profile = bridge.profile(161)
-    return Scene(radii, separation, profile.x, profile.y)
+    return Scene(radii, separation, profile.x, profile.y, (first, second))
+
+
+def _seen_of(solid: float | Shape, widest: float) -> float:
+    """Radius of a sphere, or of as much of another solid as is of interest beside a contact circle."""
+    if isinstance(solid, Disc):
+        return solid.radius
+    return _SEEN * widest if isinstance(solid, Shape) else solid
 
 
 def far_window(scene: Scene) -> Window:
@@ -116,12 +128,22 @@ def mirrored(x: Floats, y: Floats) -> tuple[Floats, Floats]:
     return np.concatenate([x, x[::-1]]), np.concatenate([y, -y[::-1]])
 
 
-def outline_of(radius: float, pole: float, side: float, window: Window) -> tuple[Floats, Floats]:
-    """Closed outline of a solid with its pole at x = ``pole`` and its body to the ``side``, fine in the window."""
+def outlines_of(scene: Scene, window: Window) -> list[tuple[Floats, Floats]]:
+    """Closed outlines of both solids, fine in the window."""
+    first, second = scene.solids
+    return [_outline_of(first, 0.0, -1.0, window), _outline_of(second, scene.gap, 1.0, window)]
+
+
+def _outline_of(solid: float | Shape, pole: float, side: float, window: Window) -> tuple[Floats, Floats]:
+    """Closed outline of a solid with its pole at x = ``pole`` and its body to the ``side``."""
     margin = 1.5 * window.half_height * window.reach[1]
+    far = 4.0 * window.half_height
+    if isinstance(solid, Shape):
+        depth, height = solid.outline(np.array(far if isinstance(solid, Disc) else window.y + margin), 241)
+        return mirrored(pole + side * np.append(depth, max(far, depth[-1])), np.append(height, height[-1]))
+    radius = solid
     if math.isinf(radius):
-        far = pole + side * 4.0 * window.half_height
-        return mirrored(np.array([pole, far]), np.full(2, window.y + margin))
+        return mirrored(np.array([pole, pole + side * far]), np.full(2, window.y + margin))
     seen = np.arcsin(np.clip(np.linspace(window.y - margin, window.y + margin, 121) / radius, 0.0, 1.0))
     turn = np.union1d(np.linspace(0.0, math.pi, 91), seen)
     return mirrored(pole + side * 2.0 * radius * np.sin(0.5 * turn) ** 2, radius * np.sin(turn))
