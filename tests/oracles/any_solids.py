@@ -197,7 +197,7 @@ def make(first, second, radius, suction, slope=None, *, longest=6.0, number=0):
             return math.nan
 
     def closes(_s, state):
-        return state[1] - 0.02 * radius
+        return state[1] - 1e-3 * radius
 
     def winds(_s, state):
         return 3.0 - abs(state[2])

@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..exact.batch import FAILED
+from ..exact.batch import FAILED, FOUND, NO_BRIDGE
 from ..exact.equations import SUCTION, VOLUME
 from ..exact.shapes.answers import SPILLED, Answer, answer_to, curve_of
 from ..exact.shapes.pieces import Body, body_of_sphere, is_flat
 from ..exact.shapes.search import Question
 from ..exact.state import State
-from ..ground.check import broadcast, in_range, quantity
+from ..ground.check import broadcast, in_range, plain, quantity
 from ..ground.warn import warn
 from .liquid import Liquid
 from .pair import Pair
@@ -110,14 +110,16 @@ def _restored(
     """The answers as a bridge in SI units."""
     states = np.array([_NOTHING if answer.state is None else answer.state for answer in answers])
     statuses = np.array([answer.status for answer in answers], np.int8)
-    spilled = int(np.count_nonzero(statuses == SPILLED))
-    if spilled:
-        warn(
-            f"{spilled} of {statuses.size} bridges would run over the edge of a disc and wet its side, "
-            "which is not answered",
-            ConvergenceWarning,
-        )
-        statuses = np.where(statuses == SPILLED, FAILED, statuses).astype(np.int8)
+    _warn_where(statuses == SPILLED, "would run over the edge of a disc and wet its side, which is not answered")
+    _warn_where(statuses == FAILED, "were neither found nor excluded")
+    is_known = (statuses == FOUND) | (statuses == NO_BRIDGE)
     shapes = [solid if isinstance(solid, Shape) else None for solid in pair.solids]
-    bridge = restore(problem, states.reshape(*statuses.shape, -1), statuses, separation, extra)
-    return replace(bridge, _shapes=(shapes[0], shapes[1]))
+    bridge = restore(problem, states, np.where(is_known, statuses, NO_BRIDGE).astype(np.int8), separation, extra)
+    force = np.where(is_known.reshape(np.shape(bridge.force)), bridge.force, np.nan)
+    return replace(bridge, force=plain(force), _shapes=(shapes[0], shapes[1]))
+
+
+def _warn_where(condition: NDArray[np.bool_], what: str) -> None:
+    count = int(np.count_nonzero(condition))
+    if count:
+        warn(f"{count} of {condition.size} bridges {what}", ConvergenceWarning)

@@ -214,16 +214,16 @@ def curve_of(question: Question, limit: int, points: int) -> list[Answer]:
         return [_FAILED] * points
     found = start[0]
     top = _up(question, found, limit)
-    if top.event not in (FOLD, PITCHFORK) or not top.stance.separation > 0.0:
-        return [_SPILLED if top.event == OFF else _NOTHING if top.event == ENDED else _FAILED] * points
+    if top.event not in (FOLD, PITCHFORK, ENDED) or not top.stance.separation > 0.0:
+        return [_SPILLED if top.event == OFF else _FAILED] * points
     are_flat = is_flat(question.first) and is_flat(question.second)
     bottom = _down(question, found, limit, _WIDEST * top.stance.separation if are_flat else 0.0)
     middle = points // 2
     stable = _steps_back(bottom.legs) + _steps(top.legs)
     answers = _spread(question, stable, middle, 0.0)
     answers.append(_end(question, top, math.inf))
-    down = travel(question, go_beyond(question, top), 0.0, NOTHING)
-    answers += _spread(question, _thinning(_steps(down.legs)), points - middle - 1, 1.0)
+    down = [] if top.event == ENDED else travel(question, go_beyond(question, top), 0.0, NOTHING).legs
+    answers += _spread(question, _thinning(_steps(down)), points - middle - 1, 1.0)
     first = answers[0].state
     if bottom.event == ARRIVED and not are_flat and first is not None:
         answers[0] = answers[0]._replace(state=first._replace(separation=0.0))  # which is met to rounding
