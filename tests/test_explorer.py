@@ -3,19 +3,23 @@
 import json
 import re
 import shutil
+import socket
 import subprocess
 
 import pytest
 
 import pendular as pl
+from pendular.codes import wasm
+from pendular.front.cli import main
 from pendular.front.explorer.files import page_files
 from pendular.front.explorer.records import records
 from pendular.ground import webassembly
+from pendular.ground.compile import has_compiler
 
-pytestmark = [
-    pytest.mark.needs("numba"),
-    pytest.mark.skipif(webassembly.linker() is None, reason="wasm-ld is not installed: apt-get install lld"),
-]
+MAKES_IT = has_compiler() and webassembly.linker() is not None
+pytestmark = pytest.mark.skipif(
+    not (wasm.PACKAGED.exists() or MAKES_IT), reason="neither a module in the package, nor numba and wasm-ld to make it"
+)
 
 
 @pytest.fixture(scope="module")
@@ -37,6 +41,24 @@ def test_no_hole_is_left_in_it(html):
     assert "--liquid-edge: #1d6496" in style
     assert f"Pendular {pl.__version__}" in html
     assert "{digest}" not in page_files()["offline.js"].decode()
+
+
+def test_the_package_may_bring_the_module(monkeypatch, tmp_path):
+    module = wasm.module()
+    monkeypatch.setattr(wasm, "linker", lambda: None)
+    monkeypatch.setattr(wasm, "PACKAGED", tmp_path / wasm.MODULE)
+    with pytest.raises(ValueError, match=r"^wasm: needs (wasm-ld, which links|numba, which compiles) it"):
+        page_files()
+    wasm.PACKAGED.write_bytes(module)
+    assert len(page_files()["index.html"]) > len(module)
+
+
+def test_a_port_in_use_is_refused_in_one_line(capsys):
+    with socket.create_server(("127.0.0.1", 0)) as taken, pytest.raises(SystemExit) as end:
+        main(["explore", "--no-browser", "--port", str(taken.getsockname()[1])])
+    assert end.value.code == 2
+    words = capsys.readouterr().err
+    assert re.fullmatch(r"pendular: port: \d+ of 127\.0\.0\.1 cannot be used: .*; choose another\n", words)
 
 
 @pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")

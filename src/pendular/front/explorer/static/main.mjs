@@ -34,6 +34,7 @@ let answer; // what is shown
 let picture;
 let chart;
 let stopMap = () => {};
+const sizes = { chart: [0, 0], plan: [0, 0] }; // in pixels
 
 // -- Laying out ------------------------------------------------------------------------------------------------------
 
@@ -46,7 +47,6 @@ function layOut() {
   options("map-choice", mapChoices());
   at("liquids").innerHTML = liquidNames().map((name) => `<option value="${plainText(name)}">`).join("");
   at("laws").innerHTML = RECORDS.laws.map(lawRow).join("");
-  listen();
 }
 
 function fieldNamed(name) {
@@ -119,8 +119,11 @@ function listen() {
   at("save-program").addEventListener("click", () => save("bridge.py", "text/x-python", programOf(answer)));
   for (const button of document.querySelectorAll("[data-copies]")) button.addEventListener("click", () => copy(button));
   addEventListener("hashchange", () => begin());
-  new ResizeObserver(() => answer && drawSized()).observe(at("chart"));
-  new ResizeObserver(() => answer && drawSized()).observe(at("plan"));
+  const observer = new ResizeObserver(() => {
+    measure();
+    drawSized();
+  });
+  for (const id of Object.keys(sizes)) observer.observe(at(id));
 }
 
 const firstRadius = () => (isPlane(answer.view.radius) ? FIRST_VIEW.radius : answer.view.radius);
@@ -277,12 +280,15 @@ function showAnswer(next) {
 }
 
 function drawSized() {
-  const svg = at("chart");
-  chart = chartOf(answer, svg.clientWidth, svg.clientHeight);
-  svg.innerHTML = chart.svg;
-  svg.setAttribute("aria-label", chart.words);
-  const plan = at("plan");
-  at("frame").innerHTML = mapFrame(answer, plan.clientWidth, plan.clientHeight);
+  chart = chartOf(answer, ...sizes.chart);
+  at("chart").innerHTML = chart.svg;
+  at("chart").setAttribute("aria-label", chart.words);
+  at("frame").innerHTML = mapFrame(answer, ...sizes.plan);
+}
+
+/** Sizes are kept: to ask for them in each frame would lay out the page twice. */
+function measure() {
+  for (const id of Object.keys(sizes)) sizes[id] = [at(id).clientWidth, at(id).clientHeight];
 }
 
 /** What the colours of the map depend on. */
@@ -293,13 +299,14 @@ function mapKeyOf({ view, question }) {
   return [view.map, view.across, angle, question.pair.radius, question.held.surfaceTension, needsGap].join(" ");
 }
 
+let soon;
 let waiting;
 let isMapWaiting = false;
 
-/** What nobody waits for follows when the hand rests: the table, the laws, the address, the map. */
+/** What nobody waits for: tables and texts follow after the frame, the address and the map when the hand rests. */
 function later(isMapOld) {
   isMapWaiting ||= isMapOld;
-  showSoon();
+  soon ??= setTimeout(showSoon); // after the frame
   clearTimeout(waiting);
   waiting = setTimeout(() => {
     at("spoken").textContent = spoken(answer);
@@ -310,17 +317,23 @@ function later(isMapOld) {
 }
 
 function showSoon() {
+  soon = undefined;
   at("numbers").innerHTML = numbersOf(answer);
   at("command").textContent = commandOf(answer.view);
   at("program").textContent = programOf(answer);
   for (const { law, forceError, ruptureError, outside } of answer.laws) {
     const row = at("laws").querySelector(`[data-law="${law.name}"]`);
     const cells = row.querySelectorAll("td");
-    cells[0].textContent = law.gives.includes("force") ? percent(forceError) : "";
-    cells[1].textContent = law.gives.includes("rupture") ? percent(ruptureError) : "";
-    row.querySelector(".outside").textContent = outside;
+    say(cells[0], law.gives.includes("force") ? percent(forceError) : "");
+    say(cells[1], law.gives.includes("rupture") ? percent(ruptureError) : "");
+    say(row.querySelector(".outside"), outside);
     row.classList.toggle("beyond", outside !== "");
   }
+}
+
+/** Write a text where it is another one than before: each change is laid out. */
+function say(element, text) {
+  if (element.textContent !== text) element.textContent = text;
 }
 
 function startMap() {
@@ -462,5 +475,7 @@ window.explorer = {
 };
 
 layOut();
+measure();
 begin();
+listen();
 if ("serviceWorker" in navigator && location.protocol.startsWith("http")) navigator.serviceWorker.register("offline.js");
