@@ -1,7 +1,7 @@
 """Write ``docs/accuracy.md``, every bound and the test that holds it: ``python -m tools.truth_page``.
 
-A bound is that of its test, which names it in figures; tests/test_truth_page.py sees that the test is there and that both
-agree. Errors of the laws come from their stored measurements.
+A bound is that of its test, which names it in figures; tests/test_truth_page.py sees that the test is there and that
+both agree. Errors of the laws come from their stored measurements.
 """
 
 import math
