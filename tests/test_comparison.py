@@ -162,7 +162,7 @@ def test_a_map_holds_the_errors_of_single_pairs():
         assert found.error[i, j] == pytest.approx(error, abs=2e-4)  # between two points of the comparison
 
 
-@pytest.mark.parametrize("name", list(laws))
+@pytest.mark.parametrize("name", [law.name for law in laws.values() if law.gives != ("damping",)])
 def test_each_law_has_a_map(name):
     low, high = laws[name].valid.get(f"{laws[name].control}_star", (1e-3, 1.0))
     middle = np.sqrt(max(low, 1e-6) * min(high, 1e6))

@@ -18,6 +18,7 @@ import pendular as pl
 from lammps_scripts import wet_grains
 from lammps_scripts.wet_grains import RADIUS, by_id, film_of, found_in, grains, opened, rows_of, simulation
 from pendular.front.cli import main
+from pendular.laws import damping_star
 from pendular.packing.forces import BridgeState, contact_energy, contact_forces
 
 pytestmark = pytest.mark.skipif(shutil.which("g++") is None, reason="no g++ to build the plug-in: apt-get install g++")
@@ -226,9 +227,8 @@ def test_the_viscosity_of_the_liquid(plugin, tables, control, newton):
         lmp.command(f"velocity moved set {speed} 0.3 0 units box")
         move(lmp, step)
         rows, force = rows_of(lmp), forces(lmp)
-        distance = max(gap, smallest)
-        inside = 1.0 - (1.0 + 2.0 * rows[0, VOLUME] / (math.pi * mean * distance**2)) ** -0.5
-        drag = 1.5 * math.pi * viscosity * mean**2 * inside**2 * speed / distance
+        damping = damping_star("pitois2000", max(gap, smallest) / mean, rows[0, VOLUME] / mean**3, 0.3, 0.3, 1.0, 1.0)
+        drag = float(damping) * viscosity * mean * speed
         assert abs(drag) > 1e-3 * rows[0, FORCE]
         np.testing.assert_allclose(force[0], [rows[0, FORCE] + drag, 0.0, 0.0], rtol=1e-9, atol=1e-20)
         np.testing.assert_allclose(force[1], -force[0], rtol=1e-12, atol=1e-20)
@@ -449,6 +449,28 @@ def test_liquid_of_a_grain_that_is_gone(plugin, tables):
     assert len(rows_of(lmp)) == 0
     np.testing.assert_allclose(lmp.gather("d_film", 1, 1)[0], 4e-15)
     lmp.close()
+
+
+def test_grains_that_get_other_ids_are_refused(plugin, tables):
+    """Which ids would have been taken for others; those that had no bridge may."""
+    lmp = wet_row(plugin, tables, "film", 1e-15, (4e-15, 4e-15, 4e-15), cells=(0.0, 4e-4, 5.99e-4))
+    lmp.commands_string("run 0\ngroup first id 1\ndelete_atoms group first compress yes")
+    with pytest.raises(Exception, match=r"atom \d with a bridge became atom \d; use 'delete_atoms ... compress no'"):
+        lmp.command("run 0")
+    lmp.close()
+    lmp = wet_row(plugin, tables, "film", 1e-15, (4e-15, 4e-15), cells=(0.0, 4e-4))
+    lmp.commands_string("run 0\ngroup first id 1\ndelete_atoms group first compress yes\nrun 0")
+    lmp.close()
+
+
+@pytest.mark.parametrize(
+    ("newton", "formation", "lists"), [("on", 0.0, 1), ("on", 1e-6, 2), ("off", 0.0, 2)], ids=["shared", "far", "off"]
+)
+def test_the_list_of_the_granular_style_serves(plugin, tables, newton, formation, lists, tmp_path):
+    lmp = two_grains(plugin, tables.law("suction", more=f"formation {formation!r}"), (1e-4, 1e-4), 0.0, newton=newton)
+    lmp.commands_string(f"log {tmp_path / 'log'}\nrun 0")
+    lmp.close()
+    assert f"  {lists} neighbor lists, perpetual" in (tmp_path / "log").read_text()
 
 
 def test_liquid_of_grains_that_were_put_far_apart(plugin, tables):
@@ -751,6 +773,47 @@ def test_a_grain_on_a_wall(plugin, wall_tables, control, source, walls):
             kind = "grand_potential" if control == "suction" else "surface_energy"
             lost = float(getattr(pl.rupture(pair, **known), kind)) - float(getattr(exact, kind))
             assert energy == pytest.approx(-lost, rel=1e-3, abs=1e-3 * contact * end)
+    lmp.close()
+
+
+@pytest.mark.parametrize("walls", ["zplane 0 NULL", "region inside"])
+@pytest.mark.parametrize("control", ["suction", "volume"])
+def test_the_viscosity_of_the_liquid_at_a_wall(plugin, wall_tables, control, walls):
+    """Lubrication between a grain and a plane, also in the virial, and only across the wall."""
+    held, viscosity, smallest = {"suction": 2e4, "volume": 4e-15}[control], 1e-3, 2e-7
+    law = f"{wall_tables / control}.bridges {control} {held} surface_tension {TENSION}"
+    lmp = opened(plugin)
+    lmp.commands_string(ON_A_WALL.format(z=50e-6 - 1e-12))
+    lmp.command("region inside block -1 2 -1 2 0 1e-3 units box")
+    lmp.command(f"fix wet all pendular/wall {law} viscosity {viscosity} smallest_gap {smallest} {walls}")
+    lmp.commands_string("fix_modify wet virial yes\ncompute stress all pressure NULL fix\nrun 0")
+    known = {control: held, "liquid": WATER}
+    mean, contact = 100e-6, float(pl.bridge(pl.Pair((50e-6, math.inf), ON_WALLS[control]), 0.0, **known).force)
+    for gap, step, speed in ((1e-8, 1e-8 + 1e-12, 0.02), (1e-6, 1e-6 - 1e-8, 0.02), (2e-6, 1e-6, -0.05)):
+        lmp.command(f"velocity moved set 0.4 0.3 {speed} units box")
+        lmp.commands_string(f"displace_atoms moved move 0 0 {step!r} units box\nrun 0")
+        capillary = float(pl.bridge(pl.Pair((50e-6, math.inf), ON_WALLS[control]), gap, **known).force)
+        liquid = lmp.numpy.extract_fix("wet", 0, 1, 1)
+        damping = damping_star("pitois2000", max(gap, smallest) / mean, liquid / mean**3, 0.3, 0.3, 2.0, 0.0)
+        drag = float(damping) * viscosity * mean * speed
+        assert abs(drag) > 1e-3 * capillary
+        assert forces(lmp)[0].tolist() == [0.0, 0.0, pytest.approx(-capillary - drag, abs=3e-5 * contact)]
+        stress = lmp.numpy.extract_compute("stress", 0, 1)[2]
+        assert stress == pytest.approx(forces(lmp)[0, 2] * (50e-6 + gap) / 1e-9, rel=1e-9)
+    lmp.close()
+
+
+def test_the_viscosity_wants_walls_at_rest(plugin, wall_tables):
+    law = f"{wall_tables / 'suction'}.bridges suction 2e4 surface_tension {TENSION} viscosity 1e-3 smallest_gap 1e-7"
+    lmp = opened(plugin, "variable top equal 1e-3")
+    lmp.commands_string(ON_A_WALL.format(z=50e-6))
+    with pytest.raises(Exception, match="viscosity: the speed of a wall whose place is a variable is not known"):
+        lmp.command(f"fix wet all pendular/wall {law} zplane 0 v_top")
+    lmp.command("variable shift equal ramp(0,1e-6)")
+    lmp.command("region inside block -1 2 -1 2 0 1e-3 units box move NULL NULL v_shift")
+    lmp.command(f"fix wet all pendular/wall {law} region inside")
+    with pytest.raises(Exception, match="viscosity: region inside moves, and its speed is not known"):
+        lmp.command("run 0")
     lmp.close()
 
 

@@ -84,8 +84,13 @@ def test_rupture_distances_agree_with_what_was_found_before(case):
     assert 100.0 * rupture == pytest.approx(RUPTURE_TOLD_BEFORE[case], abs=0.06)
 
 
+def compared():
+    """Laws of bridges at rest."""
+    return {name: law for name, law in laws.items() if law.gives != ("damping",)}
+
+
 def test_every_law_is_measured_in_its_range(measured_now):
-    for name, law in laws.items():
+    for name, law in compared().items():
         measured = measured_now[name]
         assert measured.control_star.size >= 3
         low, high = law.valid.get(f"{law.control}_star", (0.0, np.inf))
@@ -96,7 +101,7 @@ def test_every_law_is_measured_in_its_range(measured_now):
 
 
 def test_the_ends_of_a_range_are_sampled(measured_now):
-    for name, law in laws.items():
+    for name, law in compared().items():
         measured = measured_now[name].of_equal_spheres
         for end in law.valid[f"{law.control}_star"]:
             assert end in measured.control_star or end in (0.0, np.inf), name

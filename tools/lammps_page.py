@@ -127,9 +127,9 @@ By default `reach` is the rupture distance of the largest grains at the beginnin
 suction will fall, or if volumes are larger than `V`. The Kelvin pressure is $RT$ over the molar volume of the liquid,
 135.0 MPa for water at 20 °C.
 
-The viscous force is that of [Pitois et al. 2000](https://doi.org/10.1006/jcis.2000.7096), lubrication in a bridge of
-finite extent between grains that move apart at the speed $\\dot D$, with the mean radius $\\bar R = 2R_1R_2/(R_1+R_2)$;
-at smaller gaps than `smallest_gap`, the roughness of the grains, the gap is that:
+The viscous force is the law [pitois2000](laws/pitois2000.md): lubrication in a bridge of finite extent between solids
+that move apart at the speed $\\dot D$, with the mean radius $\\bar R = 2R_1R_2/(R_1+R_2)$, at walls $2R$. At smaller
+gaps than `smallest_gap`, the roughness of the grains, the gap is that:
 
 $$F_v = \\frac{3\\pi\\mu \\bar R^2 \\dot D}{2D} \\left(1 - \\frac{1}{\\sqrt{1 + 2V/(\\pi\\bar R D^2)}}\\right)^2$$
 
@@ -139,7 +139,8 @@ suction, volume and surface tension in them. Energy and virial count in `pe`, `p
 stress/atom`; `compute cap all pressure NULL pair/hybrid pendular` is the stress of the bridges alone. Bridges exert no
 torque. `replicate` stands before `pair_style`. `newton` may be on or off. A periodic box must be twice as wide as
 bridges reach between centres. The time step must resolve the contacts and the [stiffness of the
-bridges](howto/particle_codes.md). Whatever would give wrong forces ends with one line that says what to change.
+bridges](howto/particle_codes.md). `delete_atoms` between two runs takes `compress no`, as bridges know grains by their
+ids. Whatever would give wrong forces ends with one line that says what to change.
 
 ```text
 compute ID group pendular/bridges [id1 id2 separation force volume suction energy rupture_distance]
@@ -151,15 +152,17 @@ scalar the number of bridges, as a vector number, liquid and energy.
 ## Walls
 
 ```text
-fix ID group pendular/wall SOURCE HELD surface_tension G [formation D] [film NAME share S] WALLS
+fix ID group pendular/wall SOURCE HELD surface_tension G [formation D] [viscosity M smallest_gap D] &
+    [film NAME share S] WALLS
 ```
 
 puts bridges between grains and walls, beside a `fix wall/gran` that holds the contacts. `WALLS` is `xplane`, `yplane`
 or `zplane` with two places, numbers, `v_name` or `NULL`; or `region NAME`, whose faces are planes to a grain. A curved
 region is refused, unless `curved plane` behind its name says that this is meant, as in a drum much larger than its
-grains. A table has to hold planes, which `pendular export table` does by default; its first contact angle is that of
-the grains, the second that of the wall. The vector `f_ID` has number and liquid of the bridges and the force on the
-walls, the scalar their energy, for `fix_modify ID energy yes virial yes`; the liquid of each grain in them is per atom.
+grains. With a viscosity the walls have to be at rest. A table has to hold planes, which `pendular export table` does by
+default; its first contact angle is that of the grains, the second that of the wall. The vector `f_ID` has number and
+liquid of the bridges and the force on the walls, the scalar their energy, for `fix_modify ID energy yes virial yes`;
+the liquid of each grain in them is per atom.
 
 ## Restart
 
@@ -275,6 +278,16 @@ pair_style hybrid/overlay granular table linear 1000
 pair_coeff * * granular hooke 400 0.5 tangential linear_history 114 1.0 0.3 damping coeff_restitution
 pair_coeff 1 1 table bridge.table BRIDGE
 ```
+
+## On a GPU
+
+The plug-in is for processors: there is no KOKKOS style of it, as no LAMMPS with KOKKOS on a GPU was at hand. What such
+a style would ask of a bridge in each step is ready in `contact.h` of the sources: `Ends`, which lies in a flat array,
+and `Cell`, the plain part of a bridge, both without pointers; `pull_of` and `damping_of`, functions for host and
+device, as those of `pendular_table.h` are, of which a new cell is made. CI compiles a functor of them with nvcc and
+checks it with clang as HIP (`tests/c_programs/like_kokkos.cpp`); neither was run on a GPU. Missing are the style around
+that functor, with its views, and the step that hands to the host which bridges broke or left their cell; forming,
+breaking and the talk between ranks stay with the host.
 
 ## From the coupler in Python
 

@@ -26,7 +26,7 @@ PAGES = DOCS / "laws"  # one for each law
 
 ANGLES = ("0", "20", "40")
 HELD = {"volume": "1pL", "suction": "20kPa"}
-SHORT = {"force": "F", "rupture": "D_c", "rupture_work": "W"}
+SHORT = {"force": "F", "rupture": "D_c", "rupture_work": "W", "damping": "c"}
 MATH = re.compile(r"^( *)\.\. math::(.*(?:\n(?:\1 +.*| *)$)*)", re.MULTILINE)  # and what is indented below it
 RADIUS, WATER = 50e-6, 0.0728  # of the example [m], [N/m]
 
@@ -46,7 +46,8 @@ tools.law_errors` measures; a test compares both with the code. Each law has a p
 and a map of them; `pendular laws NAME` prints the same.
 
 - Errors are (law − exact)/exact, of the force F at parts of the exact rupture distance D_c, of D_c itself, and of the
-  work W from contact to rupture. “No bridge”: the law has none where there is one; a dash: it says nothing.
+  work W from contact to rupture. “No bridge”: the law has none where there is one; a dash: it says nothing. The damping
+  c is that of solids that move, and is not compared.
 - H\\* = Δp R̄/γ is the reduced suction, V\\* = V/R̄³ the reduced volume, R̄ = 2 R₁R₂/(R₁+R₂), θ the contact angle on both
   solids, D the whole gap.
 - A range is that of the authors where they state one, else the one in which the law was measured; the range says which.
@@ -163,9 +164,11 @@ def typeset(law: Law) -> Iterator[str]:
 
 def example(law: Law) -> str:
     """How to ask a law beside the exact answer, for a pair of its sample; nothing for one that gives only a work."""
+    if law.gives in (("rupture_work",), ("damping",)):
+        return ""
     measured = measured_errors(law).of_equal_spheres
     known = np.flatnonzero(np.isfinite(first_errors(law, measured)))
-    if not known.size or law.gives == ("rupture_work",):
+    if not known.size:
         return ""
     row = known[known.size // 2]
     angle, control = float(measured.contact_angle[row]), float(measured.control_star[row])

@@ -3,8 +3,8 @@
 Nothing is shared with the compiled kernels: coefficients stand as decimal strings, roots are found by mpmath, the
 quartic of Zhao, Kruyt and Millet (2020) is derived here by clearing the square root of their Eq. (23), and the
 equilibrium of two half bridges is solved for their contact radii. The laws at constant volume stand in
-`volume_laws_mpmath`. ``ORACLES[name]`` holds force, rupture and rupture work of a law, None where the law does not give
-it, with the arguments of its kernels; NaN where the law has no answer.
+`volume_laws_mpmath`. ``ORACLES[name]`` holds force, rupture, rupture work and damping of a law, None where the law does
+not give it, with the arguments of its kernels; NaN where the law has no answer.
 """
 
 from typing import Any, NamedTuple
@@ -215,12 +215,21 @@ def pendular2026(separation, suction, angle1, angle2, kappa1, kappa2):
         return rupture, y_0 + h * y_0**2 / 2
 
 
+# --- pitois2000 -------------------------------------------------------------------------------------------------------
+
+
+def pitois2000_damping(D, V, theta1, theta2, kappa1, kappa2):
+    """Pitois et al. (2000), the lubrication force less what the liquid beyond the edge of the bridge would add."""
+    return 3 * pi / (2 * D) * (1 - 1 / sqrt(1 + 2 * V / (pi * D**2))) ** 2 if D > 0 else nan
+
+
 class Oracle(NamedTuple):
     """What a law gives, in 40 digits."""
 
     force: Any = None
     rupture: Any = None
     rupture_work: Any = None
+    damping: Any = None
 
 
 ORACLES = {
@@ -230,5 +239,6 @@ ORACLES = {
     "pendular2026": Oracle(
         lambda *point: float(pendular2026(*point)[1]), lambda *pair: float(pendular2026(0, *pair)[0])
     ),
+    "pitois2000": Oracle(damping=in_40_digits(pitois2000_damping)),
     "asymptotic": Oracle(in_40_digits(asymptotic_force), in_40_digits(asymptotic_rupture_of_pair)),
 } | {name: Oracle(*(in_40_digits(of_kernel_arguments(name, i)) for i in range(3))) for name in FORMULAS}

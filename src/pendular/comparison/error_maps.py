@@ -102,6 +102,7 @@ def error_map(
 
 def _quantity(law: Law) -> Literal["force", "rupture", "rupture_work"]:
     """What a map is of: the force, or else what the law gives."""
-    if "force" in law.gives:
-        return "force"
-    return "rupture" if "rupture" in law.gives else "rupture_work"
+    for compared in ("force", "rupture", "rupture_work"):
+        if compared in law.gives:
+            return compared
+    raise ValueError(f"law: {law.name} gives only the {law.gives[0]}, which no bridge at rest has")

@@ -256,6 +256,8 @@ def _asked(law: Law, exact: Comparison, reduced: _Reduced) -> dict[str, ArrayLik
 
 
 def _why_silent(law: Law, exact: Comparison, reduced: _Reduced) -> str:
+    if law.gives == ("damping",):
+        return "its damping belongs to solids that move"
     if law.control != exact.control and "force" not in law.gives:
         given = " and ".join(law.gives).replace("_", " ")
         return f"its {given} belongs to constant {law.control}"

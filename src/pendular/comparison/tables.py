@@ -28,10 +28,10 @@ __all__ = [
     "sample_words",
 ]
 
-NOT_MEASURED = "no error is measured: the law says nothing at the points of the grid in its range"
+NOT_MEASURED = "no error is measured: the law says nothing of bridges at rest, at the points of the grid in its range"
 
 _FACTS = ("valid_text", "angle_rule", "size_rule", "reference", "doi", "equations", "provenance")
-_SHORT = {"force": "F", "rupture": "D_c", "rupture_work": "W"}
+_SHORT = {"force": "F", "rupture": "D_c", "rupture_work": "W", "damping": "c"}
 _NAMES = {"valid_text": "range", "angle_rule": "two angles", "size_rule": "two sizes", "doi": "DOI"}
 
 

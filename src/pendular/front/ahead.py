@@ -13,7 +13,7 @@ from ..exact.branch import branches
 from ..exact.equations import SUCTION, VOLUME
 from ..exact.sensitivities import rates_of_force
 from ..ground.rows import by_machine_code
-from ..laws import force_star, laws, rupture_star, rupture_work_star
+from ..laws import damping_star, force_star, laws, rupture_star, rupture_work_star
 from ..packing.forces import contact_forces
 from ..packing.lattice import lattice_packing
 from ..packing.wet import wet
@@ -87,11 +87,12 @@ def _ask_table() -> None:
 def _ask_laws() -> None:
     asked: dict[str, Callable[..., object]] = {
         "force": force_star, "rupture": rupture_star, "rupture_work": rupture_work_star,
+        "damping": damping_star,
     }  # fmt: skip
     control, gap = np.array([0.01, 0.02]), np.zeros(2)
     for law in laws.values():
         for quantity in law.gives:
-            place = (gap, control) if quantity == "force" else (control,)
+            place = (gap, control) if quantity in ("force", "damping") else (control,)
             asked[quantity](law.name, *place, 0.1, 0.1, 1.0, 1.0)
 
 

@@ -14,7 +14,7 @@ from ._record import ANY_SOLIDS, Law, Quantity, Solids
 from ._registry import LAWS as laws
 from ._registry import is_of_the_house, register
 from ._symbols import CONTACT_ANGLE, GAP, SEPARATION, SIZE_RATIO, SUCTION, VOLUME, Variable
-from .arrays import force_star, rupture_star, rupture_work_star
+from .arrays import damping_star, force_star, rupture_star, rupture_work_star
 
 __all__ = [
     "ANY_SOLIDS",
@@ -28,6 +28,7 @@ __all__ = [
     "Quantity",
     "Solids",
     "Variable",
+    "damping_star",
     "force_star",
     "laws",
     "register",

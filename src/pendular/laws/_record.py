@@ -11,9 +11,9 @@ from ._symbols import Variable
 __all__ = ["ANY_SOLIDS", "Kernel", "Law", "Quantity", "Solids"]
 
 Kernel = Callable[..., Any]
-Quantity = Literal["force", "rupture", "rupture_work"]
+Quantity = Literal["force", "rupture", "rupture_work", "damping"]
 
-_QUANTITIES: tuple[Quantity, ...] = ("force", "rupture", "rupture_work")
+_QUANTITIES: tuple[Quantity, ...] = ("force", "rupture", "rupture_work", "damping")
 
 _ANGLE_WORDS = {
     "any": "any two angles",
@@ -62,7 +62,7 @@ ANY_SOLIDS = Solids("any", "any", "any")
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Law:
-    r"""A published closed form for the force, the rupture distance or the rupture work of a capillary bridge.
+    r"""A published closed form for the force, the rupture distance, the rupture work or the damping of a bridge.
 
     All lengths are reduced by the Derjaguin radius :math:`\bar R = 2R_1R_2/(R_1+R_2)` and the separation is the whole
     gap, whatever the article uses. A size is given by :math:`\kappa_i = \bar R/R_i`: 1 and 1 for equal spheres, 2 and
@@ -108,6 +108,9 @@ class Law:
         ``rupture_work_star(control_star, contact_angle1, contact_angle2, kappa1, kappa2)``: the work
         :math:`W/(2\pi\gamma\bar R^2)` of the capillary force from contact to rupture, NaN outside the domain of the
         formula.
+    damping_star : callable, optional
+        Of the arguments of ``force_star``: the viscous force over the rate of the gap, :math:`F_v/(\mu\bar R\dot D)`,
+        attraction of solids that move apart, NaN outside the domain of the formula.
 
     Raises
     ------
@@ -116,7 +119,7 @@ class Law:
 
     Notes
     -----
-    The three functions take numbers and return one. They are plain Python or compiled by Numba with
+    The functions take numbers and return one. They are plain Python or compiled by Numba with
     ``error_model="numpy"``. A plain one may raise ArithmeticError or ValueError for what is outside its domain, as
     ``math.log(-1.0)`` does. Their docstrings, and those of the steps, are completed from the record.
 
@@ -145,6 +148,7 @@ class Law:
     force_star: Kernel | None = None
     rupture_star: Kernel | None = None
     rupture_work_star: Kernel | None = None
+    damping_star: Kernel | None = None
 
     def __post_init__(self) -> None:
         refuse_contradictions(self)
@@ -158,7 +162,7 @@ class Law:
 
     @property
     def gives(self) -> tuple[Quantity, ...]:
-        """The quantities that the law predicts, out of "force", "rupture" and "rupture_work"."""
+        """The quantities that the law predicts, out of "force", "rupture", "rupture_work" and "damping"."""
         return tuple(self.kernels)
 
     @property

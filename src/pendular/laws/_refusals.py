@@ -18,7 +18,9 @@ def refuse_contradictions(law: "Law") -> None:
     if law.control not in ("suction", "volume"):
         raise _refusal(law, "control", f"{law.control!r} is not one of 'suction', 'volume'")
     if not law.gives:
-        raise _refusal(law, "functions", "none of force_star, rupture_star and rupture_work_star is given")
+        raise _refusal(
+            law, "functions", "none of force_star, rupture_star, rupture_work_star and damping_star is given"
+        )
     if set(law.solids) != set(law.gives):
         raise _refusal(law, "solids", f"given are those of {list(law.solids)}, the law gives {list(law.gives)}")
     for quantity, kernel in law.kernels.items():

@@ -70,10 +70,13 @@ ANSWERS = {
     "rupture_work": Variable(
         "rupture_work_star", "-", "work from contact to rupture over 2πγ times the square of that radius", 0.0
     ),
+    "damping": Variable(
+        "damping_star", "-", "viscous force over the rate of the gap, the viscosity and the Derjaguin radius", 0.0
+    ),
 }
 
 
 def arguments(quantity: str, control: str) -> tuple[str, ...]:
     """Arguments of the function of a law for a quantity, in their order."""
     common = (f"{control}_star", "contact_angle1", "contact_angle2", "kappa1", "kappa2")
-    return ("separation_star", *common) if quantity == "force" else common
+    return ("separation_star", *common) if quantity in ("force", "damping") else common

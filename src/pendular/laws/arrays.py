@@ -12,7 +12,7 @@ from ._registry import LAWS
 from ._rows import evaluate
 from ._symbols import ANSWERS, CONTROL, LAW_NAME, SHARED
 
-__all__ = ["force_star", "rupture_star", "rupture_work_star"]
+__all__ = ["damping_star", "force_star", "rupture_star", "rupture_work_star"]
 
 Array = NDArray[np.float64]
 
@@ -97,6 +97,34 @@ def rupture_work_star(
     )
 
 
+def damping_star(
+    law: str | Law,
+    separation_star: ArrayLike,
+    control_star: ArrayLike,
+    contact_angle1: ArrayLike,
+    contact_angle2: ArrayLike,
+    kappa1: ArrayLike,
+    kappa2: ArrayLike,
+) -> Array:
+    r"""Viscous force over the speed at which the solids move apart, by a published law, on arrays.
+
+    .. math:: c^* = F_v/(\mu\bar R\,\dot D)
+
+    >>> damping_star("pitois2000", [0.001, 0.01, 0.1], 1e-3, 0.0, 0.0, 1.0, 1.0).round(3)
+    array([4.34188e+03, 1.87956e+02, 3.94000e-02])
+    """
+    return _evaluate(
+        law,
+        "damping",
+        separation_star=separation_star,
+        control_star=control_star,
+        contact_angle1=contact_angle1,
+        contact_angle2=contact_angle2,
+        kappa1=kappa1,
+        kappa2=kappa2,
+    )
+
+
 def _evaluate(asked: str | Law, quantity: Quantity, **operands: ArrayLike) -> Array:
     law = asked if isinstance(asked, Law) else LAWS.get(asked) if isinstance(asked, str) else None
     if law is None or quantity not in law.gives:
@@ -131,7 +159,12 @@ def _has_meaning(law: Law, operands: Mapping[str, Array]) -> NDArray[np.bool_]:
     return has
 
 
-for _quantity, _function in (("force", force_star), ("rupture", rupture_star), ("rupture_work", rupture_work_star)):
+for _quantity, _function in (
+    ("force", force_star),
+    ("rupture", rupture_star),
+    ("rupture_work", rupture_work_star),
+    ("damping", damping_star),
+):
     add_help(
         _function,
         {**SHARED, "law": LAW_NAME, "control_star": CONTROL},

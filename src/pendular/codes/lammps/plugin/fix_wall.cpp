@@ -54,11 +54,11 @@ FixWall::FixWall(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), law(l
         if (!(film.share > 0.0 && film.share <= 1.0))
             refuse(fmt::format("share {} is not in (0, 1]", arg[next + 1]));
     }
-    if (law.is_viscous())
-        refuse("viscosity: is for bridges between grains");
     next += read_walls(narg - next, arg + next);
     if (next < narg)
         refuse(fmt::format("does not know {}", arg[next]));
+    if (law.is_viscous() && !(place_variable[0].empty() && place_variable[1].empty()))
+        refuse("viscosity: the speed of a wall whose place is a variable is not known");
     FixWall::grow_arrays(atom->nmax);
     atom->add_callback(Atom::GROW);
     atom->add_callback(Atom::RESTART);
@@ -123,6 +123,8 @@ void FixWall::init()
     sum = NAN;
     if (!region_name.empty() && !(region = domain->get_region_by_id(region_name)))
         refuse(fmt::format("region {} is not there", region_name));
+    if (region && law.is_viscous() && region->dynamic_check())
+        refuse(fmt::format("viscosity: region {} moves, and its speed is not known", region_name));
     if (region)
         most = std::max(most, region->cmax);
     if (film.is_there()) {
@@ -290,9 +292,11 @@ void FixWall::look_at(int i)
 void FixWall::pull(int i, const Face &face, double held)
 {
     const double separation = face.distance - atom->radius[i];
-    const double force = attraction(i, held, separation);
     const Solids solids = {atom->radius[i], PLANE};
-    const double *way = face.way, arm = -face.distance;
+    const double *way = face.way, *v = atom->v[i], arm = -face.distance;
+    double force = attraction(i, held, separation);
+    if (law.is_viscous())
+        force += law.drag(bridge, solids, separation, -(v[0] * way[0] + v[1] * way[1] + v[2] * way[2]));
     for (int k = 0; k < 3; ++k) {
         atom->f[i][k] += force * way[k];
         total[FORCE_X + k] -= force * way[k];

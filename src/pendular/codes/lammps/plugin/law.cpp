@@ -14,7 +14,7 @@ using namespace LAMMPS_NS;
 
 namespace pendular_lammps {
 namespace {
-    constexpr double PI = 3.14159265358979323846, DEGREE = PI / 180.0;
+    constexpr double DEGREE = 3.14159265358979323846 / 180.0;
     const char *const UNITS[] = {"si", "cgs", "micro", "nano", "lj"};
 }    // namespace
 
@@ -207,15 +207,10 @@ double Law::suction(const Bridge &bridge, const Solids &solids, double separatio
     return is_drained() ? bridge.held : source->liquid(kind, bridge, solids, tension, separation);
 }
 
-/* Pitois, Moucheront and Chateau, J. Colloid Interface Sci. 231 (2000) 26, doi:10.1006/jcis.2000.7096, with the mean
-   radius for unequal spheres: lubrication, less what the liquid beyond the edge of the bridge would add. */
 double Law::drag(const Bridge &bridge, const Solids &solids, double separation, double speed) const
 {
     const double gap = std::fmax(separation, smallest_gap);
-    const double mean = 2.0 / (1.0 / solids.radius1 + 1.0 / solids.radius2);
-    const double liquid = volume(bridge, solids, separation);
-    const double part = 1.0 - 1.0 / std::sqrt(1.0 + 2.0 * liquid / (PI * mean * gap * gap));
-    return 1.5 * PI * viscosity * mean * mean * part * part * speed / gap;
+    return speed * damping_of(gap, volume(bridge, solids, separation), solids.radius1, solids.radius2, viscosity);
 }
 
 std::string Law::refusal(double value, const Solids &solids) const

@@ -80,7 +80,7 @@ private:
     void take_over(int i, int j, Law &, const Partner &, bool is_apart);
     void refresh();
     template <bool TALLIES> void add_forces();
-    double pull_of(int number, double distance);
+    double pull_at(int number, double distance);
     double renewed_pull(int number, double distance);
     void add_force(int number);
     void add_drags();

@@ -77,7 +77,7 @@ template <bool TALLIES> void PairPendular::add_forces()
         const double distance = std::sqrt(dx * dx + dy * dy + dz * dz);
         double pull = pair.touching;
         if (!(distance <= pair.sum)) {
-            pull = pull_of(k, distance);
+            pull = pull_at(k, distance);
             if (pull == 0.0) {
                 broken.push_back(k);
                 continue;
@@ -98,14 +98,9 @@ template <bool TALLIES> void PairPendular::add_forces()
 }
 
 /* Attraction of a bridge; 0 from the rupture distance on. */
-inline double PairPendular::pull_of(int number, double distance)
+inline double PairPendular::pull_at(int number, double distance)
 {
-    const double separation = distance - ends[number].sum;
-    if (separation <= 0.0)
-        return ends[number].touching;
-    if (separation >= bridges[number].rupture)
-        return 0.0;
-    const double pull = bridges[number].pull(separation);
+    const double pull = pull_of(ends[number], bridges[number], distance);
     return std::isnan(pull) ? renewed_pull(number, distance) : pull;
 }
 

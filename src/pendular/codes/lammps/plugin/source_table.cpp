@@ -34,7 +34,7 @@ namespace {
             if (separation <= 0.0)
                 return pendular_table_force_at(&table, &place, 0.0, tension);
             keep_cell(bridge, place, tension, separation);
-            return bridge.pull(separation);
+            return pull_in_cell(bridge, separation);
         }
 
         double energy(
