@@ -26,6 +26,18 @@ PAGES = DOCS / "laws"  # one for each law
 
 ANGLES = ("0", "20", "40")
 HELD = {"volume": "1pL", "suction": "20kPa"}
+USED = {  # by programs, as read in their sources or manuals from 2015 to 2026, not all of it as published
+    "willett2000": "YADE, `Law2_ScGeom_ViscElCapPhys_Basic`; MercuryDPM in a fork; LIGGGHTS-PFM with other logarithms",
+    "willett2000_simple": "YADE, MercuryDPM, dirt_granular",
+    "lian1993": "MercuryDPM, LIGGGHTS, MUSEN, ddgclib, prism, for the rupture distance, in most with one angle",
+    "lian_seville2016": "MercuryDPM",
+    "soulie2006": "YADE, LIGGGHTS-PUBLIC (`easo`), CapDEM",
+    "rabinovich2005": "YADE, LIGGGHTS-PUBLIC (`washino`)",
+    "lambert2008": "YADE, prism",
+    "weigert1999": "YADE",
+    "mikami1998": "EDEM, MUSEN",
+    "bagheri2024": "MercuryDPM in a fork, phydrax",
+}
 SHORT = {"force": "F", "rupture": "D_c", "rupture_work": "W", "damping": "c"}
 MATH = re.compile(r"^( *)\.\. math::(.*(?:\n(?:\1 +.*| *)$)*)", re.MULTILINE)  # and what is indented below it
 RADIUS, WATER = 50e-6, 0.0728  # of the example [m], [N/m]
@@ -144,6 +156,7 @@ def law_page(law: Law) -> str:
         "Reference": law.reference + (f", [doi:{law.doi}](https://doi.org/{law.doi})" if law.doi else ""),
         "Equations": law.equations,
         "Provenance": law.provenance,
+        "Used in": used_in(law),
     }
     told = [f"- {name}: {fact}\n" for name, fact in facts.items() if fact]
     told += [f"- Erratum: {in_symbols(erratum)}\n" for erratum in law.errata]
@@ -153,7 +166,32 @@ def law_page(law: Law) -> str:
     functions = (
         f"[What each symbol is, and the functions](../reference/law_functions.md#{law.name.replace('_', '-')}).\n\n"
     )
-    return (head + formulas + text + functions + example(law) + "".join(errors(law))).rstrip() + "\n"
+    return (head + formulas + text + functions + example(law) + in_c(law) + "".join(errors(law))).rstrip() + "\n"
+
+
+def used_in(law: Law) -> str:
+    """Programs that have a law, and where it is told what they make of it."""
+    if law.name not in USED:
+        return "no particle code that was read; here by `method=`, `pendular compare`, and the functions below"
+    return (
+        f"{USED[law.name]}; what they make of it stands with [conformance](../conformance/README.md#formulas-as-coded)"
+    )
+
+
+def in_c(law: Law) -> str:
+    """The law in C, which the site makes of its kernels."""
+    return f"""\
+## In C
+
+Translated from the functions of Python by `python -m tools.law_in_c {law.name}`; a test compiles it and compares both
+on thousands of questions. For the exact answer in C there are [a library](../c_library.md) and
+[a header](../c_header.md).
+
+```{{literalinclude}} ../made/{law.name}.c
+:language: c
+```
+
+"""
 
 
 def typeset(law: Law) -> Iterator[str]:

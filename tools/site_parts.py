@@ -14,6 +14,7 @@ from typing import Any
 
 import typer
 from studies.paper.claims import Claim, measure
+from tools import law_in_c
 from tools.code_blocks import code_blocks, commands
 from tools.live_bridge import fragment
 from tools.site_pictures import PICTURES
@@ -44,6 +45,7 @@ def make(docs: Path) -> None:
     for name, draw in PICTURES.items():
         draw(made / f"{name}.svg")
     for law in laws.values():
+        (made / f"{law.name}.c").write_text(law_in_c.source(law), encoding="utf-8")
         if measured_errors(law).control_star.size:
             run(f"pendular compare --map {law.name} --plot {made / f'map_{law.name}.svg'}")
     with contextlib.chdir(docs):
