@@ -411,7 +411,7 @@ def test_a_place_on_the_map_is_gone_to_and_the_map_is_true(desk):
     desk.page.select_option("#map-choice", "rupture")
     playwright.expect(desk.page.locator("#frame")).to_have_attribute("aria-label", re.compile("^Map of the rupture"))
     high = desk.page.locator("#map-key span").nth(2).inner_text().replace("\u00a0", " ")
-    control = 10.0 ** (-1.0 + 5.0 * 0.5 / 56) * WATER.surface_tension / 50e-6  # the first column, the lowest row
+    control = 10.0 ** (-1.0 + 5.0 * 0.5 / 80) * WATER.surface_tension / 50e-6  # the first column, the lowest row
     largest = pl.rupture(pl.Pair(50e-6, np.deg2rad(1.0)), suction=control, liquid=WATER).separation
     assert read("rupture", high, "m", "1um") == pytest.approx(float(largest), rel=0.1)
     for choice in ("zhao2020", "force"):

@@ -5,8 +5,8 @@ import { RECORDS } from "./records.mjs";
 import { rounded, signed } from "./units.mjs";
 import { questionOf } from "./view.mjs";
 
-export const CURVE_POINTS = 121; // enough to look smooth at the width of a screen
-const LAW_POINTS = 121;
+const CURVE_POINTS = 97; // enough to look smooth at the width of a screen
+const LAW_POINTS = 97;
 const OTHER_POINTS = 41; // of a law of the other control, which needs an exact bridge for each
 const BEYOND = 1.3; // over the exact rupture distance: where a law that knows none is drawn to
 const SAME = 1e-6; // by how much the forces of two answers for one bridge may differ
@@ -19,7 +19,7 @@ export function answerTo(view, solver, before) {
   const branch = before?.branch.key === key ? before.branch : branchOf(question, solver, key);
   const state = solver.bridge(question.pair, question.separation, question.held);
   const answer = { view, question, branch, state, ...branch };
-  answer.laws = RECORDS.laws.map((law) => lawAt(law, answer, solver));
+  answer.drawn = drawnLaws(answer, solver);
   answer.notices = noticesOf(answer, solver);
   return answer;
 }
@@ -67,10 +67,22 @@ export function forceOfLaw(law, question, state, solver) {
   return forceUnit(question) * solver.laws[law.name].force(gap, control, ...solidsOf(question));
 }
 
-/** Errors of a law at a state, and its curve if it is to be drawn. */
+/** Laws that are laid over the force, each with its place among all and its curve. */
+function drawnLaws({ view, question, rupture, lawCurves }, solver) {
+  const wanted = RECORDS.laws.map((law, place) => ({ law, place })).filter(({ law }) => view.laws.includes(law.name));
+  return wanted.map(({ law, place }) => {
+    if (!lawCurves.has(law.name)) lawCurves.set(law.name, lawCurve(law, question, rupture, solver));
+    return { law, place, curve: lawCurves.get(law.name) };
+  });
+}
+
+/** What all laws say at a state. */
+export const lawsAt = (answer, solver) => RECORDS.laws.map((law) => lawAt(law, answer, solver));
+
+/** Errors of a law at a state, and whether it is asked outside of its range. */
 function lawAt(law, answer, solver) {
   const { question, state, rupture } = answer;
-  const told = { law, forceError: NaN, ruptureError: NaN, outside: "", curve: [] };
+  const told = { law, forceError: NaN, ruptureError: NaN, outside: "" };
   if (question.arePlanes) return { ...told, outside: "two planes are none of its solids" };
   const solids = solidsOf(question);
   const isOwn = ownControl(law, question);
@@ -82,31 +94,29 @@ function lawAt(law, answer, solver) {
     return !why;
   };
   if (functions.force && state && covers("force")) {
-    const control = isOwn ? controlStar(question) : otherControl(question, state, solver);
+    answer.other ??= otherControl(question, state, solver);
+    const control = isOwn ? controlStar(question) : answer.other;
     const gap = question.separation / question.meanRadius;
-    const force = forceOfLaw(law, question, state, solver);
+    const force = forceUnit(question) * functions.force(gap, control, ...solids);
     told.forceError = force / state.force - 1;
     reasons.push(outside(law, "force", { separation_star: gap, [`${law.control}_star`]: control }, question));
     if (Number.isNaN(force)) reasons.push(isOwn ? "it says nothing of this bridge" : `no ${law.control} that it knows holds this bridge`);
   }
-  let last = NaN;
   if (functions.rupture && isOwn && covers("rupture")) {
     const control = controlStar(question);
-    last = functions.rupture(control, ...solids) * question.meanRadius;
-    if (rupture) told.ruptureError = last / rupture.separation - 1;
+    if (rupture) told.ruptureError = (functions.rupture(control, ...solids) * question.meanRadius) / rupture.separation - 1;
     reasons.push(outside(law, "rupture", { [`${law.control}_star`]: control }, question));
   }
-  told.outside = reasons.find(Boolean) ?? "";
-  if (functions.force && answer.view.laws.includes(law.name) && !uncovered(law, "force", question)) {
-    const reach = last > 0 ? last : (rupture?.separation ?? NaN) * (isOwn ? BEYOND : 1);
-    const { lawCurves } = answer;
-    if (!lawCurves.has(law.name)) lawCurves.set(law.name, lawCurve(functions.force, reach, question, isOwn, solver));
-    told.curve = lawCurves.get(law.name);
-  }
-  return told;
+  return { ...told, outside: reasons.find(Boolean) ?? "" };
 }
 
-function lawCurve(force, reach, question, isOwn, solver) {
+function lawCurve(law, question, rupture, solver) {
+  const functions = solver.laws[law.name];
+  if (!functions.force || question.arePlanes || uncovered(law, "force", question)) return [];
+  const isOwn = ownControl(law, question);
+  const solids = solidsOf(question);
+  const last = functions.rupture && isOwn ? functions.rupture(controlStar(question), ...solids) * question.meanRadius : NaN;
+  const reach = last > 0 ? last : (rupture?.separation ?? NaN) * (isOwn ? BEYOND : 1);
   if (!Number.isFinite(reach)) return [];
   const count = isOwn ? LAW_POINTS : OTHER_POINTS;
   // dense towards rupture, where forces are steep
@@ -114,7 +124,7 @@ function lawCurve(force, reach, question, isOwn, solver) {
   const states = isOwn ? [] : solver.bridges(question.pair, gaps, question.held);
   return gaps.map((gap, i) => {
     const control = isOwn ? controlStar(question) : otherControl(question, states[i], solver);
-    const said = forceUnit(question) * force(gap / question.meanRadius, control, ...solidsOf(question));
+    const said = forceUnit(question) * functions.force(gap / question.meanRadius, control, ...solids);
     return [gap, said === 0 ? NaN : said];
   });
 }

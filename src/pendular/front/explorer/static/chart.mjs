@@ -20,12 +20,12 @@ export function lawLine(place) {
   return `class="law colour${colour}" stroke-dasharray="${DASHES[(place + Math.floor(place / LAW_COLOURS)) % DASHES.length]}"`;
 }
 
-/** The chart as SVG text for a size in pixels, and the separations at its sides. */
+/** The chart as SVG text for a size in pixels, the point of the present state, and the separations at its sides. */
 export function chartOf(answer, width, height) {
   const name = answer.view.plot;
   const { rupture, curve, state, question, lowerEnd } = answer;
   const field = fieldOf(name);
-  if (!curve.length) return { svg: emptyChart(width, height), words: "no bridge between solids apart" };
+  if (!curve.length) return { svg: emptyChart(width, height), now: "", words: "no bridge between solids apart" };
   const values = curve.map((one) => one[field]);
   const here = state?.[field];
   const [low, high] = rangeOf(name, values, state, question.separation < curve[0].separation ? here : undefined);
@@ -53,9 +53,9 @@ export function chartOf(answer, width, height) {
     lowerEnd && Number.isFinite(lowerEnd[field]) ? circle(across(lowerEnd.separation), up(lowerEnd[field]), 4, "begin") : "",
   ];
   const y = state ? here : name === "force" ? 0 : NaN;
-  if (Number.isFinite(y)) parts.push(circle(across(question.separation), up(y), 5.5, "now"));
+  const now = Number.isFinite(y) ? circle(across(question.separation), up(y), 5.5, "now") : "";
   const words = `${name.replaceAll("_", " ")} against separation up to rupture at ${show(reach, "m", 4)}`;
-  return { svg: parts.join(""), words, inner };
+  return { svg: parts.join(""), now, words, inner };
 }
 
 /** Dashes begin where the line ends. */
@@ -133,14 +133,14 @@ function rupturePoint(rupture, field, across, up, right) {
 const circle = (x, y, radius, name) => `<circle class="${name}" cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="${radius}"/>`;
 
 function lawPaths(answer, across, up) {
-  const lines = answer.laws.map(({ curve }, place) => [pathOf(curve.map(([gap, force]) => [across(gap), up(force)])), place]);
-  return lines.map(([path, place]) => (path ? `<path ${lawLine(place)} d="${path}"/>` : "")).join("");
+  const pathsOf = ({ curve, place }) => [pathOf(curve.map(([gap, force]) => [across(gap), up(force)])), place];
+  return answer.drawn.map(pathsOf).map(([path, place]) => (path ? `<path ${lawLine(place)} d="${path}"/>` : "")).join("");
 }
 
 function legend(answer, right) {
-  const drawn = answer.laws.map((one, place) => [one, place]).filter(([{ curve }]) => curve.length);
-  return drawn
-    .map(([{ law }, place], row) => {
+  return answer.drawn
+    .filter(({ curve }) => curve.some(([, force]) => Number.isFinite(force)))
+    .map(({ law, place }, row) => {
       const y = MARGIN.top + 10 + 17 * row;
       return (
         `<path ${lawLine(place)} d="M${right - 28} ${y - 4}H${right - 2}"/>` +

@@ -1,6 +1,6 @@
 // The page itself: what a change of one thing changes elsewhere.
 
-import { answerTo, CURVE_POINTS, heldInstead, percent } from "./answer.mjs";
+import { answerTo, heldInstead, lawsAt, percent } from "./answer.mjs";
 import { chartOf, lawLine } from "./chart.mjs";
 import { liquidNames } from "./liquids.mjs";
 import { drawMap, MAP_DEGREES, MAP_MARGIN, mapChoices, mapFrame, mapKey, mapSides, valueAtShare } from "./map.mjs";
@@ -25,6 +25,7 @@ const LABELS = {
 const BY_NAME = "by name";
 const GIVEN = "surface tension";
 const CSV_POINTS = 201; // as the command has them
+const LITTLE = 80; // between two changes of tables and texts while a hand moves, [ms]
 const PAUSE = 250; // after the last change: what is slow, or speaks, waits so long, [ms]
 
 const at = (id) => document.getElementById(id);
@@ -265,11 +266,11 @@ function showAnswer(next) {
   answer = next;
   picture = pictureOf(answer, exact);
   const svg = at("picture");
-  svg.innerHTML = picture.svg;
+  fill(svg, picture.svg);
   svg.classList.toggle("upright", picture.upright !== 0);
   svg.setAttribute("aria-label", picture.words);
-  at("tiles").innerHTML = tilesOf(answer);
-  at("notices").innerHTML = answer.notices.map((notice) => `<p>${plainText(notice)}</p>`).join("");
+  fill(at("tiles"), tilesOf(answer));
+  fill(at("notices"), answer.notices.map((notice) => `<p>${plainText(notice)}</p>`).join(""));
   drawSized();
   showFields();
   if (isMapOld) {
@@ -279,11 +280,23 @@ function showAnswer(next) {
   later(isMapOld);
 }
 
+const filled = new WeakMap();
+
+/** Give an element its content, where that is another one than before: each change is laid out and painted. */
+function fill(element, content) {
+  if (filled.get(element) === content) return;
+  element.innerHTML = content;
+  filled.set(element, content);
+}
+
 function drawSized() {
   chart = chartOf(answer, ...sizes.chart);
-  at("chart").innerHTML = chart.svg;
+  fill(at("chart-lines"), chart.svg);
+  fill(at("chart-now"), chart.now);
   at("chart").setAttribute("aria-label", chart.words);
-  at("frame").innerHTML = mapFrame(answer, ...sizes.plan);
+  const frame = mapFrame(answer, ...sizes.plan);
+  fill(at("frame-lines"), frame.svg);
+  fill(at("frame-now"), frame.now);
 }
 
 /** Sizes are kept: to ask for them in each frame would lay out the page twice. */
@@ -303,10 +316,10 @@ let soon;
 let waiting;
 let isMapWaiting = false;
 
-/** What nobody waits for: tables and texts follow after the frame, the address and the map when the hand rests. */
+/** What nobody waits for: tables and texts follow a little later, the address and the map when the hand rests. */
 function later(isMapOld) {
   isMapWaiting ||= isMapOld;
-  soon ??= setTimeout(showSoon); // after the frame
+  soon ??= setTimeout(showSoon, LITTLE);
   clearTimeout(waiting);
   waiting = setTimeout(() => {
     at("spoken").textContent = spoken(answer);
@@ -318,22 +331,17 @@ function later(isMapOld) {
 
 function showSoon() {
   soon = undefined;
-  at("numbers").innerHTML = numbersOf(answer);
+  fill(at("numbers"), numbersOf(answer));
   at("command").textContent = commandOf(answer.view);
   at("program").textContent = programOf(answer);
-  for (const { law, forceError, ruptureError, outside } of answer.laws) {
+  for (const { law, forceError, ruptureError, outside } of lawsAt(answer, exact)) {
     const row = at("laws").querySelector(`[data-law="${law.name}"]`);
     const cells = row.querySelectorAll("td");
-    say(cells[0], law.gives.includes("force") ? percent(forceError) : "");
-    say(cells[1], law.gives.includes("rupture") ? percent(ruptureError) : "");
-    say(row.querySelector(".outside"), outside);
+    fill(cells[0], law.gives.includes("force") ? percent(forceError) : "");
+    fill(cells[1], law.gives.includes("rupture") ? percent(ruptureError) : "");
+    fill(row.querySelector(".outside"), plainText(outside));
     row.classList.toggle("beyond", outside !== "");
   }
-}
-
-/** Write a text where it is another one than before: each change is laid out. */
-function say(element, text) {
-  if (element.textContent !== text) element.textContent = text;
 }
 
 function startMap() {
@@ -417,13 +425,14 @@ function wholePicture() {
   const palette = Object.fromEntries(at("style").textContent.match(/--[\w-]+(?=:)/g).map((name) => [name, style.getPropertyValue(name)]));
   const light = at("style").textContent.match(/:root \{([^}]*)\}/)[1];
   for (const [, name, value] of light.matchAll(/(--[\w-]+): *([^;]+);/g)) palette[name] = value;
+  const lines = chartOf(answer, width, height);
   const rules = [...document.styleSheets[0].cssRules].filter((rule) => /^\.(picture|chart)\b/.test(rule.selectorText ?? ""));
   const css = rules.map((rule) => rule.cssText).join("\n").replaceAll(/var\((--[\w-]+)\)/g, (_, name) => palette[name]);
   return (
     `<svg xmlns="http://www.w3.org/2000/svg" width="${2 * width}" height="${height}" viewBox="0 0 ${2 * width} ${height}" font-family="sans-serif">` +
     `<title>${plainText(solidsInWords(answer.question))}</title><style>${css}</style><rect width="100%" height="100%" fill="#fff"/>` +
     `<svg class="picture" width="${width}" height="${height}" viewBox="${VIEW_BOX.join(" ")}">${picture.svg}</svg>` +
-    `<svg class="chart" x="${width}" width="${width}" height="${height}">${chartOf(answer, width, height).svg}</svg></svg>`
+    `<svg class="chart" x="${width}" width="${width}" height="${height}">${lines.svg}${lines.now}</svg></svg>`
   );
 }
 
@@ -462,15 +471,17 @@ function begin() {
     notice = error.message;
     showAnswer(answerTo(FIRST_VIEW, exact, answer));
   }
-  if (notice) at("notices").innerHTML = `<p>${plainText(notice)}</p>`;
+  if (notice) fill(at("notices"), `<p>${plainText(notice)}</p>`);
 }
 
 /** What the page computes, for the console of a browser. */
 window.explorer = {
   picture: () => picture,
   answerAt(hash) {
-    const { question, state, rupture, lowerEnd, laws } = answerTo(viewAt(hash), exact);
-    return { question, state, rupture, lowerEnd, laws: laws.map(({ law, ...told }) => ({ law: law.name, ...told })) };
+    const answer = answerTo(viewAt(hash), exact);
+    const { question, state, rupture, lowerEnd } = answer;
+    const laws = lawsAt(answer, exact).map(({ law, ...told }) => ({ law: law.name, ...told }));
+    return { question, state, rupture, lowerEnd, laws };
   },
 };
 

@@ -4,11 +4,11 @@ import { forceOfLaw } from "./answer.mjs";
 import { RECORDS } from "./records.mjs";
 import { scaleOf, show, signed } from "./units.mjs";
 
-const COLUMNS = 56;
-const ROWS = 45;
+const COLUMNS = 80;
+const ROWS = 60;
 const MOST_DEGREES = 90;
 const SLICE = 7; // time in one go, [ms], so that a hand on a slider is not felt
-const SPANS = { suction: [-1, 4], volume: [-8, 0] }; // of H R̄/γ and V/R̄³
+const SPANS = { suction: [-1, 4], volume: [-7, 1] }; // of H R̄/γ and V/R̄³
 export const MAP_MARGIN = { left: 46, right: 10, top: 8, bottom: 44 };
 
 // Light to dark, told apart without colours; and from too small over right to too large.
@@ -113,7 +113,7 @@ function colourAt(stops, share) {
   return stops[i].map((one, channel) => Math.round(one + (stops[i + 1][channel] - one) * (place - i)));
 }
 
-/** Axes and the present point over the map, as SVG text for a size in pixels. */
+/** Axes over the map, and the present point, as SVG text for a size in pixels. */
 export function mapFrame(answer, width, height) {
   const { left, right, top, bottom } = MAP_MARGIN;
   const sides = mapSides(answer);
@@ -135,14 +135,15 @@ export function mapFrame(answer, width, height) {
   const value = sides.across === "separation" ? question.separation : question.held[sides.control];
   const [x, y] = [shareOf(sides, value), question.degrees[0]];
   const isSeen = x >= 0 && x <= 1 && y <= MOST_DEGREES;
-  return [
+  const svg = [
     `<rect class="frame" x="${left}" y="${top}" width="${wide}" height="${high}"/>`,
     ...below,
     ...beside,
     `<text class="title" x="${across(0.5)}" y="${height - 8}" text-anchor="middle">${marks.title}</text>`,
     `<text class="title" transform="translate(12 ${0.5 * (top + floor)}) rotate(-90)" text-anchor="middle">contact angle</text>`,
-    isSeen ? `<circle class="now" cx="${across(x).toFixed(1)}" cy="${up(y).toFixed(1)}" r="5.5"/>` : "",
   ].join("");
+  const now = isSeen ? `<circle class="now" cx="${across(x).toFixed(1)}" cy="${up(y).toFixed(1)}" r="5.5"/>` : "";
+  return { svg, now };
 }
 
 function decades({ low, high, control }) {

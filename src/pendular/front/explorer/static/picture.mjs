@@ -8,7 +8,7 @@ const CARD = 0.27; // width of the small card over that of the picture
 const TIGHTER = 0.82; // than a window for a bridge as wide as this one is in contact only
 const TOO_FAR = 1.4; // over the rupture distance: beyond, the window on the bridge would lose a solid
 const THINNEST = 0.05; // of its radius: of a thinner meniscus the edge is drawn, which would be a hairline
-const OUTLINE_POINTS = 161;
+const OUTLINE_POINTS = 97;
 
 /** The picture: SVG text, and the scale by which it is pulled. */
 export function pictureOf(answer, solver) {
@@ -122,8 +122,8 @@ function outlineOf(radius, pole, side, window) {
     const high = window.y + margin;
     return [[pole, high], [far, high], [far, -high], [pole, -high]]; // prettier-ignore
   }
-  const turns = Array.from({ length: 91 }, (_, i) => (Math.PI * i) / 90);
-  for (let i = 0; i <= 120; i++) turns.push(Math.asin(clip01((window.y - margin + (2 * margin * i) / 120) / radius)));
+  const turns = Array.from({ length: 61 }, (_, i) => (Math.PI * i) / 60);
+  for (let i = 0; i <= 60; i++) turns.push(Math.asin(clip01((window.y - margin + (2 * margin * i) / 60) / radius)));
   turns.sort((one, other) => one - other);
   const upper = turns.map((turn) => [pole + side * 2 * radius * Math.sin(0.5 * turn) ** 2, radius * Math.sin(turn)]);
   return [...upper, ...upper.map(([x, y]) => [x, -y]).reverse()];
