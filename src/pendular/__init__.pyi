@@ -17,6 +17,7 @@ from .ask.problem import ConvergenceWarning as ConvergenceWarning
 from .ask.result import Bridge as Bridge
 from .ask.result import Profile as Profile
 from .ask.shapes import Cone as Cone
+from .ask.shapes import Convex as Convex
 from .ask.shapes import Disc as Disc
 from .ask.shapes import Paraboloid as Paraboloid
 from .codes.grains.labelled import packing_dataset as packing_dataset

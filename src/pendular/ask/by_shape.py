@@ -110,7 +110,9 @@ def _restored(
     """The answers as a bridge in SI units."""
     states = np.array([_NOTHING if answer.state is None else answer.state for answer in answers])
     statuses = np.array([answer.status for answer in answers], np.int8)
-    _warn_where(statuses == SPILLED, "would run over the edge of a disc and wet its side, which is not answered")
+    _warn_where(
+        statuses == SPILLED, "would run over the edge of a disc, or beyond the end of a profile, which is not answered"
+    )
     _warn_where(statuses == FAILED, "were neither found nor excluded")
     is_known = (statuses == FOUND) | (statuses == NO_BRIDGE)
     shapes = [solid if isinstance(solid, Shape) else None for solid in pair.solids]

@@ -2,17 +2,22 @@
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from ..exact.shapes.pieces import Body, body_of_cone, body_of_disc, body_of_paraboloid
-from ..ground.check import in_range, scalar
+from ..exact.shapes.pieces import Body, body_of_cone, body_of_disc, body_of_drawn, body_of_paraboloid
+from ..exact.solids.drawn import Spline
+from ..ground.check import in_range, quantity, scalar
 
-__all__ = ["Cone", "Disc", "Paraboloid", "Shape"]
+__all__ = ["Cone", "Convex", "Disc", "Paraboloid", "Shape"]
 
 Floats = NDArray[np.float64]
+
+_SMOOTH = 1e-3  # slope of a spline at the axis, over the steepest, below which the tip is smooth
+_SLACK = 1e-6  # of its second derivative, over the steepest slope and its reach
 
 
 class Shape(ABC):
@@ -192,3 +197,86 @@ class Disc(Shape):
         way = np.linspace(0.0, 1.0, points)
         radius = np.broadcast_to(np.minimum(2.0 * way, 1.0) * self.radius, (*np.shape(reach), points))
         return np.asarray(reach)[..., None] * np.maximum(2.0 * way - 1.0, 0.0), radius
+
+
+class Convex(Shape):
+    """A convex solid of revolution by its own profile: a cubic spline through points of it.
+
+    SciPy makes the spline: ``pip install "pendular[fit]"``. What is answered is the spline; many points of a smooth
+    profile, a hundred or more, are as good as the profile itself. A slope at the axis of less than a thousandth of the
+    steepest is taken for a smooth tip.
+
+    Parameters
+    ----------
+    radius : array_like
+        Distances from the axis, [m], from 0 on, increasing, at least four. No line lies beyond the last.
+    depth : array_like or callable
+        Depth of the surface behind the tip at each, [m], or the function that gives it.
+
+    Raises
+    ------
+    ValueError
+        Where the profile is concave or comes back towards the tip, naming the radius.
+
+    Examples
+    --------
+    >>> import pendular as pl
+    >>> lens = pl.Convex(np.linspace(0.0, 0.9e-3, 200), lambda y: 1e-3 - np.sqrt(1e-6 - y * y))
+    >>> held = {"volume": 1e-11, "liquid": pl.Liquid.water()}
+    >>> drawn, ball = (pl.bridge(pl.Pair((solid, np.inf), 0.3), 1e-5, **held) for solid in (lens, 1e-3))
+    >>> bool(np.isclose(drawn.force, ball.force, rtol=1e-7))
+    True
+    """
+
+    def __init__(self, radius: ArrayLike, depth: ArrayLike | Callable[[Floats], ArrayLike]) -> None:
+        at = np.atleast_1d(quantity("radius", radius, "m"))
+        if at.ndim != 1 or at.size < 4 or at[0] != 0.0 or np.any(np.diff(at) <= 0.0):
+            raise ValueError("radius: is not a row of at least four increasing distances from the axis, from 0 on")
+        given = quantity("depth", depth(at) if callable(depth) else depth, "m")
+        if given.shape != at.shape:
+            raise ValueError(f"depth: an array of shape {given.shape} is not one depth for each of {at.size} radii")
+        self._spline = _spline_through(at, given)
+
+    def __repr__(self) -> str:
+        return f"Convex({self._spline.knots.size} points up to {self._spline.knots[-1]:g} m)"
+
+    @property
+    def size(self) -> float:
+        """The last of its radii, [m]."""
+        return float(self._spline.knots[-1])
+
+    def body(self, unit: float, contact_angle: float) -> Body:
+        """Return its one piece in a unit of length, with a contact angle."""
+        return body_of_drawn(self._spline, unit, contact_angle)
+
+    def depth(self, radius: Floats) -> Floats:
+        """Depth of its surface behind the tip at distances from the axis, [m]; beyond its end, that at the end."""
+        found: Floats = self._spline.depth(np.minimum(radius, self.size))
+        return found
+
+    def outline(self, reach: Floats, points: int) -> tuple[Floats, Floats]:
+        """Depths and radii of its surface from the tip to its end, or to a distance from the axis."""
+        return super().outline(np.minimum(reach, self.size), points)
+
+
+def _spline_through(radius: Floats, depth: Floats) -> Spline:
+    """Cubic spline of a profile, which has to be convex."""
+    try:
+        from scipy.interpolate import CubicSpline
+    except ImportError:
+        raise ImportError('Convex: a profile needs SciPy; pip install "pendular[fit]"') from None
+    spline = CubicSpline(radius, depth - depth[0])
+    steepest = max(abs(float(spline(radius[-1], 1))), 1e-300)
+    at_axis = float(spline(0.0, 1))
+    if at_axis < -_SMOOTH * steepest:
+        raise ValueError(f"depth: comes back towards the tip at radius 0 m, where its slope is {at_axis:.3g}")
+    if at_axis < _SMOOTH * steepest:
+        spline = CubicSpline(radius, depth - depth[0], bc_type=((1, 0.0), "not-a-knot"))
+    slope, bend = spline.derivative(), spline.derivative(2)
+    is_concave = bend(radius) * radius[-1] < -_SLACK * steepest
+    if np.any(is_concave):
+        raise ValueError(
+            f"depth: is concave at radius {radius[np.argmax(is_concave)]:.6g} m; smooth it, or leave it out"
+        )
+    integral = spline.antiderivative()
+    return Spline(radius, spline, slope, bend, integral, integral.antiderivative())

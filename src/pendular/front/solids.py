@@ -87,5 +87,6 @@ def describe_solid(solid: "float | Shape") -> str:
         return f"paraboloid of tip radius {show(solid.tip_radius, 'm', 4)}"
     if isinstance(solid, Disc):
         return f"{'pinned disc' if solid.pinned else 'disc'} of radius {show(solid.radius, 'm', 4)}"
-    assert isinstance(solid, float)
+    if not isinstance(solid, float):
+        return repr(solid)
     return "plate" if math.isinf(solid) else f"sphere of radius {show(solid, 'm', 4)}"

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from ..algebra import Four, moved, unit_vector
-from ..answers import FAILED, FOUND, LARGEST_MISS, LOWER_END, MET, NO_BRIDGE, RUPTURE, STABLE
+from ..answers import FAILED, FOUND, LARGEST_MISS, LOWER_END, MET, NO_BRIDGE, RUPTURE, STABLE, UNSTABLE
 from ..clearance import radius_range
 from ..curve import Curve, corrected
 from ..equations import SUCTION, system_at
@@ -21,8 +21,9 @@ from .sideways import sideways_directions
 from .surfaces import Surface, shape_at, wetted_area
 from .travel import OFF, Journey, Leg, go_beyond, set_out, travel
 
-SPILLED = 4  # status: the liquid would run over the side of a disc
+SPILLED = 4  # status: the liquid would run over the side of a disc, or beyond a profile
 
+_ROUNDING = 1e-15
 _MISS_OF_SEPARATION = 1e-10  # over ℓ
 _BEYOND = 1e-6  # over the end of a branch, where another may go on
 _MOST_BRANCHES = 4
@@ -40,22 +41,24 @@ class Answer(NamedTuple):
 _NOTHING, _FAILED, _SPILLED = Answer(NO_BRIDGE), Answer(FAILED), Answer(SPILLED)
 
 
-def holds_nothing(question: Question) -> bool:
-    """Whether no bridge is possible at any separation.
+def reaches_no_farther(question: Question) -> float:
+    """A separation beyond which there is no bridge; negative if there is none at all, infinite if none is known.
 
-    Without a pressure in the liquid a meridian turns outwards all along: the slopes at its ends have to add up to more
-    than nothing. On a tip they are the largest.
+    Along a meridian of the length X, sin ψ1 + sin ψ2 is HX and more. On a tip the slopes ψ are the largest.
     """
     if question.control != SUCTION or question.value < 0.0:
-        return False
-    turn = 0.0
+        return math.inf
+    sines = 0.0
     for body in (question.first, question.second):
         surface = body[0].surface
         if isinstance(surface, Edge):
-            return False
-        rise = shape_at(surface, 0.0)
-        turn += 0.5 * math.pi - surface.contact_angle - math.atan2(rise.sin_slope, rise.cos_slope)
-    return turn <= 1e-15
+            sines += 1.0
+        else:
+            rise = shape_at(surface, 0.0)
+            sines += surface.cos_angle * rise.cos_slope - surface.sin_angle * rise.sin_slope
+    if sines <= _ROUNDING:
+        return -1.0
+    return sines / question.value if question.value > 0.0 else math.inf
 
 
 def _is_plane(surface: Surface) -> bool:
@@ -86,7 +89,8 @@ def described(question: Question, on: Indices, z: Four, curve: Curve, unstable: 
 
 def answer_to(question: Question, asked: int, separation: float, limit: int) -> Answer:
     """The bridge, or the end of a branch, that a question asks for."""
-    if holds_nothing(question):
+    farthest = reaches_no_farther(question)
+    if farthest < 0.0 or (asked in (STABLE, UNSTABLE) and separation > farthest * (1.0 + _ROUNDING)):
         return _NOTHING
     if asked == STABLE:
         return _stable(question, separation, limit)
@@ -207,7 +211,7 @@ _Steps = list[tuple[Indices, Curve, Four, Four]]  # neighbours on curves
 
 def curve_of(question: Question, limit: int, points: int) -> list[Answer]:
     """A whole curve: from contact, or the lower end, to the end of the stable branch, and down the unstable one."""
-    if holds_nothing(question):
+    if reaches_no_farther(question) < 0.0:
         return [_NOTHING] * points
     start = anchor(question)
     if start is None:

@@ -6,9 +6,10 @@ from typing import NamedTuple
 from ..meridian import End
 from ..solids import Solid, solid_of
 from ..solids.cone import cone_of, where_begins
+from ..solids.drawn import Spline, drawn_of
 from ..solids.edge import Edge, edge_of
 from ..solids.paraboloid import paraboloid_of
-from .surfaces import Drawn, Surface, asked_slope
+from .surfaces import Surface, asked_slope
 
 
 class Piece(NamedTuple):
@@ -51,9 +52,9 @@ def body_of_disc(radius: float, pinned: bool, contact_angle: float) -> Body:
     return (edge,) if pinned else (Piece(solid_of(0.0, contact_angle), outer=radius), edge)
 
 
-def body_of_drawn(surface: Drawn, outer: float) -> Body:
-    """A solid that is drawn up to a radius."""
-    return (Piece(surface, outer=outer),)
+def body_of_drawn(spline: Spline, unit: float, contact_angle: float) -> Body:
+    """A solid that is drawn up to a radius, in a unit of length."""
+    return (Piece(drawn_of(spline, unit, contact_angle), outer=float(spline.knots[-1]) / unit),)
 
 
 def rooms(piece: Piece, end: End) -> tuple[float, float]:

@@ -1,7 +1,7 @@
 """What the kernels ask of a solid, asked of a surface of any kind."""
 
 import math
-from typing import Any, Protocol
+from typing import Any
 
 from ..solids import Contact, Solid, half_filling_cosine, half_filling_sine, sphere
 from ..solids.cone import Cone, rise_of_cone, wetted_of_cone
@@ -12,21 +12,7 @@ from ..solids.rise import Rise, cap_of_sphere, contact_on
 _AWAY = math.pi  # slope asked of a surface on its wrong side
 
 
-class Drawn(Protocol):
-    """A surface that tells its own rise."""
-
-    contact_angle: float
-    cos_angle: float
-    sin_angle: float
-
-    def rise(self, radius: float) -> Rise:
-        """Return how the surface rises at a distance from its axis."""
-
-    def wetted(self, radius: float) -> float:
-        """Area within a circle."""
-
-
-Surface = Any  # a Solid, a Cone, a Paraboloid, an Edge, or what is drawn
+Surface = Any  # a Solid, a Cone, a Paraboloid, an Edge, or one that is drawn
 
 
 def rise_of(surface: Surface, radius: float) -> Rise:
