@@ -34,12 +34,16 @@ def compiled(tmp_path_factory):
         found = {}
         for quantity in law.gives:
             function = getattr(opened, f"{law.name}_{law_in_c.QUANTITIES[quantity]}")
-            function.argtypes = [ctypes.c_double] * (6 if quantity == "force" else 5)
+            function.argtypes = [ctypes.c_double] * (6 if takes_a_gap(quantity) else 5)
             function.restype = ctypes.c_double
             found[quantity] = function
         return found
 
     return functions
+
+
+def takes_a_gap(quantity):
+    return quantity in ("force", "damping")
 
 
 def wild(count):
@@ -72,7 +76,7 @@ def test_c_answers_what_the_kernel_answers(law, compiled):
     for quantity, function in functions.items():
         kernel = law.kernels[quantity]
         for row in [*inside, *wild(COUNT)]:
-            arguments = row if quantity == "force" else row[1:]
+            arguments = row if takes_a_gap(quantity) else row[1:]
             plain, answer = answer_of(kernel, arguments), function(*arguments)
             if math.isnan(plain):
                 assert not math.isfinite(answer), (quantity, arguments, answer)

@@ -16,7 +16,12 @@ from pendular.laws import Law, laws
 
 Kernel = Callable[..., Any]
 
-QUANTITIES = {"force": "force_star", "rupture": "rupture_star", "rupture_work": "rupture_work_star"}
+QUANTITIES = {
+    "force": "force_star",
+    "rupture": "rupture_star",
+    "rupture_work": "rupture_work_star",
+    "damping": "damping_star",
+}
 OPERATORS = {ast.Add: ("+", 4), ast.Sub: ("-", 4), ast.Mult: ("*", 5), ast.Div: ("/", 5)}
 COMPARISONS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "=="}
 CONSTANTS = {"math.nan": "NAN", "math.inf": "INFINITY", "math.pi": repr(math.pi)}
@@ -43,7 +48,8 @@ def _head(law: Law) -> str:
         f"{law.title}. {law.reference}",
         f"Arguments: separation D* = D/R where there is one, {control}, both contact angles in radians, R/R1 and R/R2; "
         "R = 2 R1 R2/(R1 + R2), and R/R2 = 0 for a plane. A force is over 2 pi gamma R, a rupture distance over R, "
-        "a work over 2 pi gamma R^2. NAN is outside of the domain of the law; beyond rupture the force is 0.",
+        "a work over 2 pi gamma R^2, a damping over the viscosity and R. NAN is outside of the domain of the law; "
+        "beyond rupture the force is 0.",
         f"Written by python -m tools.law_in_c {law.name}.",
     ]
     lines = [line for part in told for line in textwrap.wrap(part, 100)]
