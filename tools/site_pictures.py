@@ -19,13 +19,19 @@ from pendular.show.picture import draw_pair
 
 UNIT = pl.Liquid(surface_tension=1.0)
 GAP = 0.16  # of the sketch
-STYLE = {
+STYLE = {  # of axes that have a layout of their own: as pendular.ground.look dresses all others
     "axes.spines.top": False,
     "axes.spines.right": False,
-    "axes.grid": True,
-    "grid.color": HAIR,
-    "grid.alpha": 0.25,
+    "axes.edgecolor": HAIR,
+    "axes.labelcolor": FAINT,
     "axes.titlesize": 10,
+    "axes.titlecolor": INK,
+    "xtick.color": HAIR,
+    "ytick.color": HAIR,
+    "xtick.labelcolor": FAINT,
+    "ytick.labelcolor": FAINT,
+    "xtick.labelsize": 9,
+    "ytick.labelsize": 9,
     "legend.frameon": False,
     "svg.fonttype": "path",
 }

@@ -302,7 +302,8 @@ def section(subject: str) -> Iterator[str]:
     yield f"## {subject}\n\n| what | within | over | `tests/` |\n| --- | --- | --- | --- |\n"
     for bound in SUBJECTS[subject]:
         file, _, function = bound.test.partition("::")
-        yield f"| {bound.what} | {bound.within or '–'} | {bound.over} | `{file}` `{function}` |\n"
+        named = function.removeprefix("test_").replace("_", " ")
+        yield f"| {bound.what} | {bound.within or '–'} | {bound.over} | `{file}`: {named} |\n"
     yield "\n" if subject != "Laws" else ""
 
 

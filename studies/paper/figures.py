@@ -88,12 +88,12 @@ def torus_force() -> Figure:
     suctions = (1e4, 1e5)
     figure, row = style.panels([_suction(suction) for suction in suctions], SEPARATION, FORCE)
     for axes, suction in zip(row, suctions, strict=True):
-        for case, degrees in enumerate((0.0, 40.0)):
+        for degrees, case in ((0.0, style.ANGLES[0.0]), (40.0, style.ANGLES[40.0])):
             _exact_force(axes, case, suction, degrees)
             end = sample.law_rupture("toroidal2020", suction, degrees)
             style.line(axes, 0.5 * _FINE * end, sample.law_force("toroidal2020", _FINE * end, suction, degrees), case)
         _from_zero(axes)
-        style.key(axes, ("θ = 0°", "θ = 40°"), [_EXACT, ("-", "torus, Eqs. (26), (28)")])
+        style.key_of_angles(axes, (0.0, 40.0), [_EXACT, ("-", "torus, Eqs. (26), (28)")])
     return figure
 
 
@@ -110,10 +110,10 @@ def neck_at_contact() -> Figure:
     """Fig. 6: neck radius at contact."""
     figure, (axes,) = style.panels([""], SUCTION, "$(H^*/2)^{1/2}\\,Y_0^*(S^*=0)$", x_scale="log")
     few, many = sample.decades(1.0, 1e8, 0.1), sample.decades(1.0, 1e8, 1.0)
-    for case, degrees in enumerate(sample.ANGLES):
+    for degrees, case in style.ANGLES.items():
         style.marks(axes, few, np.sqrt(0.5 * few) * _exact_neck(np.zeros(few.size), few, degrees), case)
         style.line(axes, many, np.sqrt(0.5 * many) * sample.fitted_neck(many, degrees), case)
-    style.key(axes, map(_angle, sample.ANGLES), [_EXACT, ("-", "Eq. (30)")])
+    style.key_of_angles(axes, style.ANGLES, [_EXACT, ("-", "Eq. (30)")])
     return figure
 
 
@@ -215,11 +215,11 @@ def _rupture_by_angle(law: str, name: str, low: float) -> Figure:
     """2S*_crit H* against H* for the three angles."""
     figure, (axes,) = style.panels([""], SUCTION, PRODUCT, x_scale="log")
     few, many = sample.decades(low, 1e8, 0.1), sample.decades(low, 1e8, 1.0)
-    for case, degrees in enumerate(sample.ANGLES):
+    for degrees, case in style.ANGLES.items():
         style.marks(axes, few, few * sample.rupture_distance(few, degrees), case)
         style.line(axes, many, many * sample.law_rupture(law, many, degrees), case)
     place: style.Place = "center right" if low >= 1e4 else "lower right"
-    style.key(axes, map(_angle, sample.ANGLES), [_EXACT, ("-", name)], place)
+    style.key_of_angles(axes, style.ANGLES, [_EXACT, ("-", name)], place)
     return figure
 
 

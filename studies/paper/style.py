@@ -18,8 +18,9 @@ from pendular.ground.colours import ACCENT, INK
 Floats = NDArray[np.float64]
 Place = Literal["best", "lower left", "lower right", "center right", "upper right"]
 
-COLOURS = ("#1d6496", "#c2452d", "#8a6d1f", "#5b4a91")
-MARKS = ("o", "s", "^", "D")
+ANGLES = {0.0: 4, 20.0: 5, 40.0: 6}  # cases of contact angles, whose colours are those of all pictures
+COLOURS = ("#1d6496", "#c2452d", "#8a6d1f", "#5b4a91", *map(look.angle_colour, ANGLES))
+MARKS = ("o", "s", "^", "D", "o", "s", "^")
 _PANEL = (4.5, 3.7)  # in
 
 SEPARATION, PART = "$S^*$", "$S^*/S^*_{crit}$"
@@ -63,11 +64,22 @@ def line(axes: Axes, x: Floats, y: Floats, case: int, *, dashed: bool = False) -
     axes.plot(x, y, color=COLOURS[case], lw=1.5, ls=style, zorder=2, solid_capstyle="round")
 
 
+def key_of_angles(
+    axes: Axes, angles: Iterable[float], kinds: Sequence[tuple[str, str]] = (), place: Place = "best"
+) -> None:
+    """Legend of contact angles."""
+    _key(axes, {ANGLES[degrees]: f"θ = {degrees:g}°" for degrees in angles}, kinds, place)
+
+
 def key(axes: Axes, cases: Iterable[str], kinds: Sequence[tuple[str, str]] = (), place: Place = "best") -> None:
     """Legend: one entry for each case, then one for each kind of sign ("o" a mark, "-" a line, "--" dashes)."""
+    _key(axes, dict(enumerate(cases)), kinds, place)
+
+
+def _key(axes: Axes, cases: dict[int, str], kinds: Sequence[tuple[str, str]], place: Place) -> None:
     entries = [
         (Line2D([], [], color=COLOURS[i], marker=MARKS[i], ms=4.6, mfc="white", lw=1.5), case)
-        for i, case in enumerate(cases)
+        for i, case in cases.items()
     ]
     entries += [(_sign(sign), text) for sign, text in kinds]
     handles, labels = [handle for handle, _ in entries], [label for _, label in entries]
