@@ -543,6 +543,25 @@ def test_the_page_says_what_is_wrong(desk):
     desk.wait_for("force", force_of(suction=5e3))
 
 
+FAILING = """
+const instantiate = WebAssembly.instantiate;
+WebAssembly.instantiate = async (...given) => {
+  const { instance } = await instantiate.apply(WebAssembly, given);
+  const failed = () => 2;
+  return { instance: { exports: { ...instance.exports, pendular_bridge: failed, pendular_curve: failed } } };
+};
+"""
+
+
+def test_where_the_solver_fails_the_page_says_so(blank):
+    blank.page.add_init_script(FAILING)
+    blank.show(START)
+    playwright.expect(blank.page.locator("#notices")).to_contain_text("The solver found no answer to this question")
+    playwright.expect(blank.page.locator(".tile.force .value")).to_have_text("–")
+    playwright.expect(blank.page.locator(".tile.rupture .value")).to_have_text("7.675\u00a0µm")
+    assert blank.number("force") == "–"
+
+
 @pytest.mark.parametrize("plotted", ["volume", "suction", "neck radius", "surface energy", "stiffness"])
 def test_another_quantity_is_drawn(desk, plotted):
     desk.page.select_option("#plot", label=plotted)

@@ -17,22 +17,33 @@ export function answerTo(view, solver, before) {
   const question = questionOf(view);
   const key = JSON.stringify([question.pair.radius.map(String), question.degrees, question.held, question.control]);
   const branch = before?.branch.key === key ? before.branch : branchOf(question, solver, key);
-  const state = solver.bridge(question.pair, question.separation, question.held);
-  const answer = { view, question, branch, state, ...branch };
+  const state = unlessFailed(() => solver.bridge(question.pair, question.separation, question.held), undefined);
+  const answer = { view, question, branch, ...branch, state: state ?? null, isFailure: state === undefined };
   answer.drawn = drawnLaws(answer, solver);
   answer.notices = noticesOf(answer, solver);
   return answer;
 }
 
 function branchOf({ pair, held }, solver, key) {
-  const rupture = solver.rupture(pair, held);
+  const rupture = unlessFailed(() => solver.rupture(pair, held), null);
+  const states = rupture ? unlessFailed(() => solver.curve(pair, held, CURVE_POINTS), []) : [];
   return {
     key,
     rupture,
-    curve: rupture ? solver.curve(pair, held, CURVE_POINTS).filter((state) => state !== null) : [],
-    lowerEnd: rupture ? solver.lowerEnd(pair, held) : null,
+    curve: states.filter((state) => state !== null),
+    lowerEnd: rupture ? unlessFailed(() => solver.lowerEnd(pair, held), null) : null,
     lawCurves: new Map(),
   };
+}
+
+/** What the solver answers, or another thing where it failed: that is no mistake of who asked. */
+export function unlessFailed(ask, otherwise) {
+  try {
+    return ask();
+  } catch (error) {
+    if (error.constructor !== Error) throw error;
+    return otherwise;
+  }
 }
 
 // -- Laws ------------------------------------------------------------------------------------------------------------
@@ -48,7 +59,7 @@ function otherControl(question, state, solver) {
   if (question.control !== "volume") return state.volume / question.meanRadius ** 3;
   if (!(state.suction > 0)) return NaN;
   const held = { surfaceTension: question.held.surfaceTension, suction: state.suction };
-  const drained = solver.bridge(question.pair, state.separation, held);
+  const drained = unlessFailed(() => solver.bridge(question.pair, state.separation, held), null);
   const isHeld = drained !== null && Math.abs(drained.force - state.force) <= SAME * Math.abs(state.force);
   return isHeld ? (state.suction * question.meanRadius) / question.held.surfaceTension : NaN;
 }
@@ -121,7 +132,7 @@ function lawCurve(law, question, rupture, solver) {
   const count = isOwn ? LAW_POINTS : OTHER_POINTS;
   // dense towards rupture, where forces are steep
   const gaps = Array.from({ length: count }, (_, i) => reach * Math.sin((0.5 * Math.PI * i) / (count - 1)));
-  const states = isOwn ? [] : solver.bridges(question.pair, gaps, question.held);
+  const states = isOwn ? [] : unlessFailed(() => solver.bridges(question.pair, gaps, question.held), []);
   return gaps.map((gap, i) => {
     const control = isOwn ? controlStar(question) : otherControl(question, states[i], solver);
     const said = forceUnit(question) * functions.force(gap / question.meanRadius, control, ...solids);
@@ -204,8 +215,9 @@ export function percent(error) {
 
 // -- Notices ---------------------------------------------------------------------------------------------------------
 
-/** Where the Kelvin equation is doubtful, or a humidity does not fix the force. */
-function noticesOf({ question, state }, solver) {
+/** Where the solver failed, the Kelvin equation is doubtful, or a humidity does not fix the force. */
+function noticesOf({ question, state, isFailure }, solver) {
+  if (isFailure) return ["The solver found no answer to this question, and nothing is known of this bridge."];
   if (question.control !== "humidity" || !state) return [];
   const { doubtfulRadius, humidityUncertainty, largeChange } = RECORDS.kelvin;
   const told = [];
@@ -217,7 +229,7 @@ function noticesOf({ question, state }, solver) {
   const changes = [-1, 1].map((side) => {
     const humidity = Math.min(Math.max(question.value + side * humidityUncertainty, 1e-9), 1 - 1e-12);
     const held = { ...question.held, suction: suctionFromHumidity(humidity, question.liquid) };
-    const moved = solver.bridge(question.pair, question.separation, held);
+    const moved = unlessFailed(() => solver.bridge(question.pair, question.separation, held), null);
     return Math.abs((moved?.force ?? 0) / state.force - 1);
   });
   const change = Math.max(...changes);

@@ -25,7 +25,10 @@ export function chartOf(answer, width, height) {
   const name = answer.view.plot;
   const { rupture, curve, state, question, lowerEnd } = answer;
   const field = fieldOf(name);
-  if (!curve.length) return { svg: emptyChart(width, height), now: "", words: "no bridge between solids apart" };
+  if (!curve.length) {
+    const words = rupture ? "no curve is known" : "no bridge between solids apart";
+    return { svg: emptyChart(width, height, words), now: "", words };
+  }
   const values = curve.map((one) => one[field]);
   const here = state?.[field];
   const [low, high] = rangeOf(name, values, state, question.separation < curve[0].separation ? here : undefined);
@@ -150,5 +153,5 @@ function legend(answer, right) {
     .join("");
 }
 
-const emptyChart = (width, height) =>
-  `<text class="title" x="${0.5 * width}" y="${0.5 * height}" text-anchor="middle">no bridge between solids apart</text>`;
+const emptyChart = (width, height, words) =>
+  `<text class="title" x="${0.5 * width}" y="${0.5 * height}" text-anchor="middle">${words}</text>`;

@@ -1,6 +1,6 @@
 // A map of all bridges like the one that is shown: over what is held, or the separation, and the contact angle.
 
-import { forceOfLaw } from "./answer.mjs";
+import { forceOfLaw, unlessFailed } from "./answer.mjs";
 import { RECORDS } from "./records.mjs";
 import { scaleOf, show, signed } from "./units.mjs";
 
@@ -76,11 +76,14 @@ function valueFor({ question, view }, solver, sides) {
     const isGap = sides.across === "separation";
     const held = isGap ? question.held : { surfaceTension: question.held.surfaceTension, [sides.control]: x };
     const asked = { ...question, pair, held, separation: isGap ? x : question.separation };
-    try {
+    const answer = () => {
       if (view.map === "rupture") return solver.rupture(pair, held)?.separation ?? NaN;
       const state = solver.bridge(pair, asked.separation, held);
       if (!state || !law) return state?.force ?? NaN;
       return forceOfLaw(law, asked, state, solver) / state.force - 1;
+    };
+    try {
+      return unlessFailed(answer, NaN);
     } catch (error) {
       if (error instanceof RangeError) return NaN; // beyond the domain of the solver
       throw error;

@@ -39,7 +39,7 @@ const showsAxis = (window) => Math.abs(window.y) < window.half * reachOf(window)
 
 /** Views from afar and from near, which stay while the separation changes. */
 function windowsOf({ question, rupture, curve, branch }, scene, solver) {
-  if (rupture && scene.gap < TOO_FAR * rupture.separation) {
+  if (curve.length && scene.gap < TOO_FAR * rupture.separation) {
     branch.widestScene ??= widestOf(question, rupture, curve, solver);
     const largest = branch.widestScene;
     const overview = farWindow(largest);

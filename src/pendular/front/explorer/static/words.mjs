@@ -10,10 +10,11 @@ import { optionsOf } from "./view.mjs";
 export const plainText = (text) => text.replace(/[&<>"']/g, (sign) => `&#${sign.charCodeAt(0)};`);
 
 /** Force and rupture distance, large; the other quantity that matters beside them. */
-export function tilesOf({ state, rupture, lowerEnd, view }) {
+export function tilesOf({ state, rupture, lowerEnd, view, isFailure }) {
   let nature = rupture ? "no bridge at this separation" : "no bridge between solids apart";
+  if (isFailure) nature = "not known";
   if (state) nature = `${state.force >= 0 ? "attraction" : "repulsion"}, ${state.stable ? "stable" : "unstable"}`;
-  const tiles = [tile("force", "Force", show(state?.force ?? 0, "N", 4), nature)];
+  const tiles = [tile("force", "Force", show(state?.force ?? (isFailure ? NaN : 0), "N", 4), nature)];
   if (rupture) {
     const begins = lowerEnd ? `begins at ${show(lowerEnd.separation, "m", 4)}` : "";
     tiles.push(tile("rupture", "Rupture at", show(rupture.separation, "m", 4), begins));
@@ -35,9 +36,10 @@ export function spoken({ question, state, rupture }) {
 }
 
 /** All fields of the bridge with their units and meanings, as rows of a table. */
-export function numbersOf({ state, rupture, question }) {
+export function numbersOf({ state, rupture, question, isFailure }) {
   const row = (name, value, meaning) =>
     `<tr><th scope="row">${name}<span class="meaning">${meaning}</span></th><td>${value}</td></tr>`;
+  if (isFailure) return row("force", show(NaN, "N"), "the solver failed");
   if (!state) return row("force", show(0, "N"), "no bridge at this separation");
   const rows = [];
   for (const { name, unit, meaning, endings } of RECORDS.fields) {
