@@ -278,7 +278,7 @@ for each table that is built, and stored in it.
 
 ### Tables of other angles and controls
 
-Each with its default tolerance of the force, 1e-8 of that at contact under suction and 1e-7 at constant volume.
+Each with the default tolerance of the force, 1e-8 of that at contact.
 Suctions are in units of γ/R̄, volumes of R̄³.
 
 | contact angle | reduced | size ratio | built in | file | error of the force | of the rupture distance |

@@ -7,6 +7,7 @@ import pytest
 
 import pendular as pl
 from pendular.packing.forces import BridgeState, contact_energy, contact_forces
+from pendular.packing.step import CHUNK
 
 ANGLE, TENSION = 0.35, 0.0728
 WATER = pl.Liquid(surface_tension=TENSION)
@@ -136,12 +137,12 @@ def test_forces_are_exactly_opposite_and_added_in_the_order_of_the_particles(tab
 
 
 def test_neither_threads_nor_the_order_of_the_list_change_a_bit(tables, monkeypatch):
-    monkeypatch.setattr("pendular.packing.forces._CHUNK", 100)  # several chunks of a small list
-    monkeypatch.setattr("pendular.table.arrays._CHUNK", 100)
-    rng, pairs, positions, radii = packing(13, cells=8)
+    rng, pairs, positions, radii = packing(13, cells=24)
+    assert len(pairs) > 2 * CHUNK
     results = []
     for count in (1, 3):
-        monkeypatch.setattr("pendular.ground.rows.thread_count", lambda count=count: count)
+        for module in ("ground.rows", "packing.step"):
+            monkeypatch.setattr(f"pendular.{module}.thread_count", lambda count=count: count)
         for order in (np.arange(len(pairs)), rng.permutation(len(pairs))):
             volumes = VOLUME * (1.0 + (pairs.sum(axis=1)[order] % 7))
             results.append(contact_forces(tables["volume"], pairs[order], positions, radii, volumes, TENSION))

@@ -1,7 +1,7 @@
 """Forces of all bridges in one step of a DEM code: which contacts hold a bridge, and what it does to the particles.
 
-Contacts are worked on in the order of their two particles, whatever the order of the list, and forces are added up by
-one thread in that order: a result depends neither on the list nor on the number of threads, to the last bit.
+Contacts are worked on in the order of their two particles, whatever the order of the list, and forces are added up in
+that order: a result depends neither on the list nor on the number of threads, to the last bit.
 """
 
 import math
@@ -14,13 +14,12 @@ from ..ground.check import in_range, instance, quantity, scalar, unmasked
 from ..ground.compile import compiled, kernel
 from ..ground.rows import entry, over_rows
 from ..table import Table
+from .step import CHUNK, add_up, ask, distance_of, ends_of, look
 
 __all__ = ["BridgeState", "ContactForces", "contact_energy", "contact_forces"]
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
-
-_CHUNK = 65536  # contacts that one thread takes at a time
 
 
 class BridgeState(NamedTuple):
@@ -44,17 +43,10 @@ class ContactForces(NamedTuple):
 
 
 @kernel
-def _ends(pairs: Integers, contact: int) -> tuple[int, int]:
-    """Particles of a contact, in ascending order."""
-    first, second = pairs[contact, 0], pairs[contact, 1]
-    return (first, second) if first < second else (second, first)
-
-
-@kernel
 def _first_wrong(pairs: Integers, particles: int) -> int:
     """First pair that does not join two of the particles, or -1."""
     for contact in range(pairs.shape[0]):
-        low, high = _ends(pairs, contact)
+        low, high = ends_of(pairs, contact)
         if low < 0 or high >= particles or low == high:
             return contact
     return -1
@@ -65,7 +57,7 @@ def _ascends(pairs: Integers) -> bool:
     """Whether the pairs are in order, each there once."""
     ascends = True
     for contact in range(1, pairs.shape[0]):
-        ascends = ascends and _ends(pairs, contact - 1) < _ends(pairs, contact)
+        ascends = ascends and ends_of(pairs, contact - 1) < ends_of(pairs, contact)
     return ascends
 
 
@@ -76,12 +68,12 @@ def _order_of(pairs: Integers, particles: int) -> Integers:
     for key in (1, 0):
         start = np.zeros(particles + 1, np.int64)
         for contact in order:
-            start[_ends(pairs, int(contact))[key] + 1] += 1
+            start[ends_of(pairs, int(contact))[key] + 1] += 1
         for particle in range(particles):
             start[particle + 1] += start[particle]
         sorted_order = np.empty_like(order)
         for contact in order:
-            end = _ends(pairs, int(contact))[key]
+            end = ends_of(pairs, int(contact))[key]
             sorted_order[start[end]] = contact
             start[end] += 1
         order = sorted_order
@@ -92,36 +84,24 @@ def _order_of(pairs: Integers, particles: int) -> Integers:
 def _first_twin(pairs: Integers) -> int:
     """First of the ordered pairs that stands there twice, or -1."""
     for contact in range(1, pairs.shape[0]):
-        if _ends(pairs, contact - 1) == _ends(pairs, contact):
+        if ends_of(pairs, contact - 1) == ends_of(pairs, contact):
             return contact
     return -1
 
 
 @kernel
-def _match(pairs: Integers, former_pairs: Integers) -> tuple[Integers, Integers]:
-    """Former bridge of each contact, or -1, and the former bridges that have no contact; both lists are in order."""
-    former = np.full(pairs.shape[0], -1)
-    missing = np.empty(former_pairs.shape[0], np.int64)
-    contact, lost = 0, 0
-    for bridge in range(former_pairs.shape[0]):
-        ends = _ends(former_pairs, bridge)
-        while contact < pairs.shape[0] and _ends(pairs, contact) < ends:
-            contact += 1
-        if contact < pairs.shape[0] and _ends(pairs, contact) == ends:
-            former[contact] = bridge
-        else:
-            missing[lost] = bridge
-            lost += 1
-    return former, missing[:lost]
-
-
-@kernel
-def distance_of(positions: Floats, first: int, second: int) -> float:
-    """Between two centres."""
-    x = positions[second, 0] - positions[first, 0]
-    y = positions[second, 1] - positions[first, 1]
-    z = positions[second, 2] - positions[first, 2]
-    return math.sqrt(x * x + y * y + z * z)
+def _not_among(pairs: Integers, listed: Integers) -> Integers:
+    """Which of ordered pairs have no equal in another ordered list."""
+    missing = np.empty(pairs.shape[0], np.int64)
+    other, count = 0, 0
+    for pair in range(pairs.shape[0]):
+        ends = ends_of(pairs, pair)
+        while other < listed.shape[0] and ends_of(listed, other) < ends:
+            other += 1
+        if other == listed.shape[0] or ends_of(listed, other) != ends:
+            missing[count] = pair
+            count += 1
+    return missing[:count]
 
 
 @entry(plain_cost=2e-6)
@@ -133,24 +113,6 @@ def _separation_range(
         first, second = pairs[contact, 0], pairs[contact, 1]
         distance = distance_of(positions, first, second)
         separation[contact] = distance - (radii[first] + radii[second]) if distance > 0.0 else math.nan
-
-
-@kernel
-def _add_up(pairs: Integers, positions: Floats, attraction: Floats, force: Floats, virial: Floats) -> None:
-    """Add the pull of every bridge to its two particles, with opposite signs, and to the virial."""
-    total = np.zeros((3, 3))
-    for bridge in range(pairs.shape[0]):
-        first, second = pairs[bridge, 0], pairs[bridge, 1]
-        pull = attraction[bridge] / distance_of(positions, first, second)
-        for k in range(3):
-            arm = positions[second, k] - positions[first, k]
-            force[first, k] += pull * arm
-            force[second, k] -= pull * arm
-            for m in range(k + 1):
-                total[k, m] -= pull * arm * (positions[second, m] - positions[first, m])
-    for k in range(3):
-        for m in range(3):
-            virial[k, m] = total[max(k, m), min(k, m)]
 
 
 def contact_forces(
@@ -223,37 +185,33 @@ def contact_forces(
     """
     instance("table", table, Table)
     centres, sizes = _particles(positions, radii)
-    particles = len(sizes)
-    contacts, order = _in_order("pairs", pairs, particles)
+    contacts = _listed("pairs", pairs)
     given = _per_contact("control", control, len(contacts), "Pa" if table.control == "suction" else "m**3")
     tension = scalar("surface_tension", surface_tension, "N/m")
     in_range("surface_tension", tension, 0.0, brackets="(]", unit="N/m")
     reach = scalar("formation_distance", formation_distance, "m")
     in_range("formation_distance", reach, 0.0, unit="m")
-    before = _checked(state, particles)
+    before = _listed_state(state)
 
-    former, missing = compiled(_match)(contacts, before.pairs)
-    if missing.size:
-        is_held = table.control == "volume" or given.ndim > 0
-        last = before.control[missing] if is_held else np.full(missing.size, given)
-        _refuse_standing(table, BridgeState(before.pairs[missing], last), centres, sizes, tension)
-    separation = _separations(contacts, centres, sizes)
-    chosen = np.flatnonzero((former >= 0) | (separation <= reach))
-    control_now = np.full(chosen.size, given) if given.ndim == 0 else given[order][chosen]
-    if table.control == "volume":
-        has_bridge = former[chosen] >= 0
-        control_now[has_bridge] = before.control[former[chosen][has_bridge]]
-    bridges = BridgeState(contacts.take(chosen, axis=0), control_now)
-    gaps = separation.take(chosen)
-    attraction = _attractions(table, bridges, gaps, sizes, tension)
-
-    stands = attraction != 0.0  # the table gives exactly 0 from rupture on
-    if not stands.all():
-        bridges = BridgeState(bridges.pairs[stands], bridges.control[stands])
-        gaps, attraction = gaps[stands], attraction[stands]
-    force, virial = np.zeros((particles, 3)), np.zeros((3, 3))
-    compiled(_add_up)(bridges.pairs, centres, attraction, force, virial)
-    return ContactForces(bridges, force, virial, gaps, attraction)
+    seen = look(contacts, before.pairs, centres, sizes, reach)
+    if seen.is_faulty or seen.kept < len(before.pairs):  # out of order, or wrong, or bridges that have no contact
+        contacts, order = _in_order("pairs", contacts, len(sizes))
+        before = _checked(before, len(sizes))
+        _separations(contacts, centres, sizes)
+        missing = compiled(_not_among)(before.pairs, contacts)
+        if missing.size:
+            is_held = table.control == "volume" or given.ndim > 0
+            last = before.control[missing] if is_held else np.full(missing.size, given)
+            _refuse_standing(table, BridgeState(before.pairs[missing], last), centres, sizes, tension)
+        given = given if given.ndim == 0 else np.ascontiguousarray(given[order])
+        seen = look(contacts, before.pairs, centres, sizes, reach)
+    bridges = ask(table.grid, contacts, seen, reach, given.reshape(-1), before.control, sizes, tension)
+    if np.isnan(np.sum(bridges.attraction)):  # refused, in words
+        _attractions(table, BridgeState(bridges.pairs, bridges.control), bridges.separation, sizes, tension)
+    force, virial = add_up(bridges, centres)
+    return ContactForces(
+        BridgeState(bridges.pairs, bridges.control), force, virial, bridges.separation, bridges.attraction
+    )
 
 
 def contact_energy(
@@ -291,7 +249,7 @@ def contact_energy(
     """
     instance("table", table, Table)
     centres, sizes = _particles(positions, radii)
-    bridges = _checked(state, len(sizes))
+    bridges = _checked(_listed_state(state), len(sizes))
     if not bridges.control.size:
         return 0.0
     separation = _separations(bridges.pairs, centres, sizes)
@@ -311,7 +269,7 @@ def _attractions(
 
 def _separations(pairs: Integers, positions: Floats, radii: Floats) -> Floats:
     separation = np.empty(len(pairs))
-    over_rows(_separation_range, len(pairs), _CHUNK, pairs, positions, radii, separation)
+    over_rows(_separation_range, len(pairs), CHUNK, pairs, positions, radii, separation)
     if np.isnan(np.sum(separation)):
         first, second = pairs[np.flatnonzero(np.isnan(separation))[0]]
         raise ValueError(f"positions: particles {first} and {second} have the same centre")
@@ -340,15 +298,19 @@ def _particles(positions: ArrayLike, radii: ArrayLike) -> tuple[Floats, Floats]:
     return np.ascontiguousarray(centres), np.ascontiguousarray(sizes)
 
 
-def _in_order(name: str, pairs: Any, particles: int) -> tuple[Integers, Integers | slice]:
-    """Pairs in the order of their particles, and where each of them stood."""
+def _listed(name: str, pairs: Any) -> Integers:
+    """Pairs as an array."""
     array = np.asarray(unmasked(name, pairs))
     if array.size == 0:
         array = np.empty((0, 2), np.int64)
     if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
         given = f"an array of {array.dtype} of shape {array.shape}"
         raise ValueError(f"{name}: {given} is not one of integers of shape (contacts, 2)")
-    listed = np.ascontiguousarray(array, np.int64)
+    return np.ascontiguousarray(array, np.int64)
+
+
+def _in_order(name: str, listed: Integers, particles: int) -> tuple[Integers, Integers | slice]:
+    """Pairs in the order of their particles, and where each of them stood."""
     wrong = compiled(_first_wrong)(listed, particles)
     if wrong >= 0:
         pair = tuple(listed[wrong].tolist())
@@ -373,11 +335,17 @@ def _per_contact(name: str, value: Any, count: int, unit: str) -> Floats:
     return array
 
 
-def _checked(state: BridgeState | None, particles: int) -> BridgeState:
-    """State with its bridges in the order of their particles."""
+def _listed_state(state: BridgeState | None) -> BridgeState:
+    """State as arrays."""
     if state is None:
         return BridgeState(np.empty((0, 2), np.int64), np.empty(0))
     instance("state", state, BridgeState)
-    pairs, order = _in_order("state.pairs", state.pairs, particles)
+    pairs = _listed("state.pairs", state.pairs)
     control = _per_contact("state.control", state.control, len(pairs), "")
-    return BridgeState(pairs, np.full(len(pairs), control) if control.ndim == 0 else control[order])
+    return BridgeState(pairs, np.full(len(pairs), control) if control.ndim == 0 else np.ascontiguousarray(control))
+
+
+def _checked(state: BridgeState, particles: int) -> BridgeState:
+    """State with its bridges in the order of their particles."""
+    pairs, order = _in_order("state.pairs", state.pairs, particles)
+    return BridgeState(pairs, state.control[order])

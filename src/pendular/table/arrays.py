@@ -26,6 +26,11 @@ _BLOCK = 64
 _CHUNK = 65536  # contacts that one thread takes at a time
 
 
+def block_room() -> tuple[Floats, Integers]:
+    """Room for `block_range`: numbers and cells."""
+    return np.empty((13, _BLOCK)), np.empty((3, _BLOCK), np.int64)
+
+
 @entry(plain_cost=1e-4, patience=1.0)
 def block_range(
     asked: int, grid: Grid, x: Operands, out: Floats, numbers: Floats, cells: Integers, start: int, stop: int
@@ -81,7 +86,7 @@ def scalar_range(asked: int, grid: Grid, x: Operands, out: Floats, start: int, s
 def evaluate(asked: int, grid: Grid, x: tuple[Floats, ...], out: Floats) -> None:
     """Fill ``out`` with what is asked, on all threads; an operand of one element counts for all contacts."""
     if asked in (FORCE, LIQUID):
-        room = Own(lambda: np.empty((13, _BLOCK))), Own(lambda: np.empty((3, _BLOCK), np.int64))
+        room = Own(lambda: block_room()[0]), Own(lambda: block_room()[1])
         over_rows(block_range, out.size, _CHUNK, asked, grid, x, out, *room)
     else:
         over_rows(scalar_range, out.size, _CHUNK, asked, grid, x, out)
