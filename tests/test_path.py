@@ -159,6 +159,40 @@ def test_hysteresis_holds_mirror_images_that_would_slide():
     assert held.rupture.separation > free.rupture.separation
 
 
+def lowest_sideways(found, step, points=300):
+    """Least eigenvalue of the second variation of the area sideways, cos(azimuth), between rings that are held."""
+    middle, slope, half = found._meridian[step]
+    suction, s = found.suction[step], np.linspace(-half, half, points + 2)
+    turned = np.exp(1j * suction * s)
+    zeta = middle * np.exp(1j * slope) * turned + (turned - 1.0) / suction
+    radius, phi, h = np.abs(zeta), np.angle(zeta), s[1] - s[0]
+    across = np.cos(phi) / radius
+    weight = 1.0 / radius - radius * ((suction + across) ** 2 + across**2)
+    between = 0.5 * (radius[1:] + radius[:-1]) / h**2
+    matrix = np.diag(between[1:] + between[:-1] + weight[1:-1])
+    matrix -= np.diag(between[1:-1], 1) + np.diag(between[1:-1], -1)
+    scale = 1.0 / np.sqrt(radius[1:-1])
+    return np.linalg.eigvalsh(scale[:, None] * matrix * scale)[0] * half**2
+
+
+def test_pinned_lines_hold_the_liquid_sideways_as_the_second_variation_says():
+    rng, seen = np.random.default_rng(5), []
+    while len(seen) < 60 or all(seen):
+        radii = [(math.inf, math.inf), (1.0, math.inf), (1.0, rng.uniform(0.5, 3.0))][rng.integers(3)]
+        angles, volume = tuple(rng.uniform(0.3, 2.8, 2)), rng.uniform(0.02, 0.5)
+        gaps = np.linspace(rng.uniform(0.3, 1.0), 0.15, 6) * volume ** (1.0 / 3.0)
+        held = volume * np.linspace(1.0, rng.uniform(0.7, 3.0), 6)
+        try:
+            found = pl.path(pl.Pair(radii, angles), gaps, volume=held, contact_line="pinned", liquid=UNIT)
+        except ValueError:  # no bridge to start from
+            continue
+        for step in np.flatnonzero(found.exists):
+            least = lowest_sideways(found, step)
+            if abs(least) > 1e-3:  # at 180° between planes it is 0
+                assert (least > 0.0) == found.sideways_stable[step]
+                seen.append(least > 0.0)
+
+
 # -- energy --------------------------------------------------------------------------------------------------------
 
 

@@ -404,6 +404,33 @@ def draw_worn(path: Path) -> None:
     drawing.savefig(path)
 
 
+def draw_contact_lines(path: Path) -> None:
+    """Draw one bridge pulled apart with free lines of both angles, with hysteresis, and with pinned lines."""
+    with rc_context(STYLE):
+        drawing = Figure(figsize=(5.2, 3.8), layout="constrained")
+        axes = drawing.subplots()
+    advancing, receding = np.deg2rad(60.0), np.deg2rad(30.0)
+    gaps = np.concatenate([np.linspace(0.16, 0.02, 60), np.linspace(0.02, 0.4, 400)[1:]])
+    held = {"volume": 8e-3, "liquid": UNIT}
+    slides = {"contact_line": "hysteresis", "advancing_angle": advancing, "receding_angle": receding}
+    paths = {
+        "hysteresis, 60° and 30°": (pl.path(pl.Pair(1.0, advancing), gaps, **slides, **held), LIQUID_EDGE, 2.4, "-"),
+        "pinned": (pl.path(pl.Pair(1.0, advancing), gaps, contact_line="pinned", **held), ACCENT, 1.8, "-"),
+        "free, 60°": (pl.path(pl.Pair(1.0, advancing), gaps, **held), INK, 1.2, (0, (4, 2))),
+        "free, 30°": (pl.path(pl.Pair(1.0, receding), gaps, **held), FAINT, 1.2, (0, (1, 1.5))),
+    }
+    for name, (found, colour, width, style) in paths.items():
+        on = found.exists
+        end = found.rupture
+        x, y = np.append(found.separation[on], end.separation), np.append(found.force[on], end.force)
+        axes.plot(x, y, color=colour, lw=width, ls=style, label=name)
+        axes.plot(end.separation, end.force, "o", color=colour, ms=5)
+    axes.axhline(0.0, color=INK, lw=0.8)
+    axes.set(xlabel="separation $D^*$", ylabel=r"force $F/(\gamma R)$")
+    axes.legend()
+    drawing.savefig(path)
+
+
 PICTURES = {
     "worn": draw_worn,
     "sketch": draw_sketch,
@@ -414,4 +441,5 @@ PICTURES = {
     "pitchfork": draw_pitchfork,
     "energies": draw_energies,
     "rupture_terms": draw_rupture,
+    "contact_lines": draw_contact_lines,
 }

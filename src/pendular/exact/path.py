@@ -49,6 +49,7 @@ END_FIELDS = (
     "share",
 )  # what ended a path, ARRIVED if nothing did; the step, and the share of its load
 
+_UPRIGHT = 1e-9  # cosine of the slope of a meridian that leaves its ring at a right angle to the axis
 _SAME = 1e-12  # difference of two cosines that are one
 
 
@@ -61,7 +62,7 @@ def _sideways(first: End, second: End, z: Four, lines: Lines, fallback: float) -
     """
     if lines.first.mode == FREE or lines.second.mode == FREE:
         return fallback
-    if first.cos_slope >= 0.0 and second.cos_slope >= 0.0:
+    if min(first.cos_slope, second.cos_slope) > -_UPRIGHT:
         return 1.0
     system = system_on(z, lines, True, False)
     crossing = (
