@@ -7,6 +7,10 @@ from .ask.by_law import RangeWarning as RangeWarning
 from .ask.face import bridge as bridge
 from .ask.face import curve as curve
 from .ask.face import rupture as rupture
+from .ask.film import Filmed as Filmed
+from .ask.film import condensation_separation as condensation_separation
+from .ask.film import film_thickness as film_thickness
+from .ask.film import filmed as filmed
 from .ask.liquid import KelvinWarning as KelvinWarning
 from .ask.liquid import Liquid as Liquid
 from .ask.liquid import humidity_from_suction as humidity_from_suction
