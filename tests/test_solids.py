@@ -103,7 +103,8 @@ def check_against_made(seed, kind, count):
             "energy": abs(found.surface_energy - one.energy) / one.area,
         }
         name = max(misses, key=misses.get)
-        assert misses[name] < 1e-9, (seed, i, name, misses[name], pair, held, one.gap)
+        allowed = 1e-8 if "Convex" in repr(pair) else 1e-9  # a spline is about as near to its profile
+        assert misses[name] < allowed, (seed, i, name, misses[name], pair, held, one.gap)
         worst = max(worst, misses[name])
         if abs(one.force) > 1e-6 * size and not slides(one):
             sideways = one.directions_down(volume_held=False, mode=1)
@@ -120,6 +121,76 @@ def test_bridges_that_an_integrator_makes(kind):
 @pytest.mark.parametrize("kind", SHAPES)
 def test_sixty_bridges_that_an_integrator_makes(kind):
     check_against_made(21, kind, 60)
+
+
+def check_on_a_side(seed, count):
+    rng, found, worst = np.random.default_rng(seed), 0, 0.0
+    while found < count:
+        angle = float(np.deg2rad(rng.uniform(2.0, 80.0)))
+        second, other, angle2 = random_solid(rng, rng.choice(["sharp cone", "paraboloid", "sphere", "plane"]))
+        suction = float(rng.uniform(-3.0, 1.0))
+        whole = made.make(made.side(0.8, angle, 1e-9), other, 0.8, suction)
+        if whole is None or not whole.gap > 0.0:
+            continue
+        height = float(rng.uniform(0.1, 0.95) * whole.gap)
+        one = made.make(made.side(0.8, angle, height), other, 0.8, suction)
+        if not (one.volume > 0.0 and one.is_outside() and one.directions_down(volume_held=True) == 0):
+            continue
+        pair = pl.Pair((pl.Disc(0.8), second), (angle, angle2))
+        question = (seed, found, pair, one.volume, one.gap)
+        with quietly():
+            answer = pl.bridge(pair, float(one.gap), volume=one.volume, liquid=UNIT)
+        assert answer.exists, question
+        if abs(answer.wetted_area[0] / one.wetted[0] - 1.0) > 1e-6:  # another has less energy
+            assert answer.surface_energy < one.energy, question
+            continue
+        found += 1
+        misses = (
+            abs(answer.force / (2.0 * math.pi) - one.force) / max(abs(one.force), 1e-2),
+            abs(answer.suction - one.suction),
+            abs(answer.liquid_gas_area / one.area - 1.0),
+            np.max(np.abs(answer.wetted_area / np.array(one.wetted) - 1.0)),
+            np.max(np.abs(answer.contact_radius / np.array(one.radii) - 1.0)),
+            abs(answer.surface_energy - one.energy) / one.area,
+        )
+        assert max(misses) < 1e-9, (question, misses)
+        assert answer.sideways_stable == (one.directions_down(volume_held=False, mode=1) == 0), question
+        worst = max(worst, *misses)
+    print(f"seed {seed}: {count} bridges on the side of a cylinder within {worst:.1e}")
+
+
+def test_bridges_on_the_side_of_a_cylinder():
+    check_on_a_side(40, 4)
+
+
+@pytest.mark.long
+def test_sixty_bridges_on_the_side_of_a_cylinder():
+    check_on_a_side(41, 60)
+
+
+def test_the_force_on_a_side_is_the_slope_of_the_energy():
+    pair = pl.Pair((pl.Disc(1.0), math.inf), np.deg2rad(40.0))
+    five = [pl.bridge(pair, 0.3 + 1e-3 * k, volume=2.5, liquid=UNIT) for k in (-2, -1, 0, 1, 2)]
+    assert all(one.wetted_area[0] > 1.2 * math.pi for one in five)
+    energy, force = ([getattr(one, name) for one in five] for name in ("surface_energy", "force"))
+    assert (energy[0] - 8.0 * energy[1] + 8.0 * energy[3] - energy[4]) / 0.012 == pytest.approx(force[2], rel=1e-8)
+    assert (force[0] - 8.0 * force[1] + 8.0 * force[3] - force[4]) / 0.012 == pytest.approx(five[2].stiffness, rel=1e-6)
+
+
+def test_under_suction_a_line_slides_along_the_side_of_a_cylinder():
+    pair = pl.Pair((pl.Disc(1.0), 3.0), np.deg2rad(15.0))
+    held = {"suction": 0.35, "liquid": UNIT}
+    gaps = np.array([0.002, 0.01, 0.02])
+    found = pl.bridge(pair, gaps, **held)
+    assert found.stable.all()
+    assert np.all(found.wetted_area[:, 0] > math.pi)
+    np.testing.assert_allclose(found.force, found.force[0], rtol=1e-10)
+    np.testing.assert_allclose(np.diff(found.volume), math.pi * np.diff(gaps), rtol=1e-8)
+    np.testing.assert_allclose(np.diff(found.grand_potential), found.force[0] * np.diff(gaps), rtol=1e-8)
+    again = pl.bridge(pair, gaps, volume=found.volume, liquid=UNIT)
+    np.testing.assert_allclose(again.suction, 0.35, rtol=1e-9)
+    np.testing.assert_allclose(again.surface_energy, found.surface_energy, rtol=1e-9)
+    np.testing.assert_allclose(again.wetted_area, found.wetted_area, rtol=1e-9)
 
 
 def random_pair(rng):
@@ -254,18 +325,34 @@ def passes_a_corner(pair, radii):
     return False
 
 
+def surface_of(solid, other, radius, filling, wetted):
+    """The surface of the integrator on which a line of an answer lies."""
+    if not isinstance(solid, pl.Disc):
+        return other
+    if not solid.pinned and radius < solid.radius * (1.0 - 1e-9):
+        return made.plane(other.angle)
+    behind = wetted / (2.0 * math.pi * solid.radius) - 0.5 * solid.radius
+    if behind > 1e-9:
+        assert filling == pytest.approx(0.5 * math.pi, abs=1e-9)
+        return made.side(solid.radius, other.angle, behind)
+    return made.edge(solid.radius, other.angle)
+
+
 def check_answer(question, pair, others, bridge, *, volume_held):
     """Whether the integrator, from one end of an answer, makes the bridge that was asked for."""
+    fillings = bridge.half_filling_angle
+    if np.any((fillings > 0.5 * math.pi - 1e-3) & [solid == 1.0 for solid in pair.solids]):
+        return  # the integrator knows no far side of a sphere
     radius, slope, half = bridge._meridian
-    turn = bridge.suction * half
-    zeta = radius * np.exp(1j * (slope - turn)) - 1j * half * np.exp(-0.5j * turn) * np.sinc(0.5 * turn / math.pi)
-    ends = []
-    for solid, other, at in zip(pair.solids, others, bridge.contact_radius, strict=True):
-        on_face = isinstance(solid, pl.Disc) and not solid.pinned and at < solid.radius * (1.0 - 1e-9)
-        is_disc = isinstance(solid, pl.Disc)
-        ends.append(made.plane(other.angle) if on_face else made.edge(solid.radius, other.angle) if is_disc else other)
-    outward = -math.atan2(zeta.imag, zeta.real)
-    start = float(bridge.contact_radius[0])
+    each = zip(pair.solids, others, bridge.contact_radius, fillings, bridge.wetted_area, strict=True)
+    ends = [surface_of(*one) for one in each]
+    first = 1 if ends[1].behind else 0  # a side comes first
+    way = 2 * first - 1
+    turn = way * bridge.suction * half
+    zeta = radius * np.exp(1j * (slope + turn)) + way * 1j * half * np.exp(0.5j * turn) * np.sinc(0.5 * turn / math.pi)
+    outward = way * math.atan2(zeta.imag, zeta.real)
+    start = float(bridge.contact_radius[first])
+    ends = ends[::-1] if first else ends
     tries = (
         made.make(*ends, start, float(bridge.suction), outward, longest=2.1 * half / start, number=number)
         for number in range(4)

@@ -32,6 +32,7 @@ class Solid:
     bend: Callable[[float], float] | None  # d²h/dY²
     edge: float = math.inf  # radius of the edge on which the line is pinned, if there is no slope
     corners: tuple[float, ...] = ()
+    behind: float = 0.0  # height of the line on the side of a cylinder of the radius of the edge
 
     @property
     def is_edge(self):
@@ -48,7 +49,7 @@ class Solid:
 
     def curvature(self, radius):
         """Of its meridian."""
-        return self.bend(radius) / (1.0 + self.steepness(radius) ** 2) ** 1.5
+        return 0.0 if self.behind else self.bend(radius) / (1.0 + self.steepness(radius) ** 2) ** 1.5
 
     def _integral(self, function, radius):
         corners = [corner for corner in self.corners if corner < radius]
@@ -57,12 +58,14 @@ class Solid:
 
     def cap(self, radius):
         """Volume between the tip and the contact circle."""
+        if self.behind:
+            return math.pi * self.edge**2 * self.behind
         return 0.0 if self.is_edge else math.pi * self._integral(lambda y: y * y * self.steepness(y), radius)
 
     def wetted(self, radius):
         """Area within a contact circle."""
-        if self.is_edge:
-            return math.pi * radius**2
+        if self.is_edge or self.behind:
+            return math.pi * radius * (radius + 2.0 * self.behind)
         return 2.0 * math.pi * self._integral(lambda y: y * math.hypot(1.0, self.steepness(y)), radius)
 
 
@@ -102,6 +105,11 @@ def edge(radius, angle):
     return Solid(angle, None, None, None, edge=radius)
 
 
+def side(radius, angle, height):
+    """The side of a cylinder, with the line at a height behind its end; it may be the first solid only."""
+    return Solid(angle, lambda y: height, lambda y: math.inf, lambda y: 0.0, edge=radius, behind=height)
+
+
 @dataclass(frozen=True)
 class Made:
     """A bridge made from the equation."""
@@ -131,7 +139,7 @@ class Made:
         x = x - self.solids[0].height(self.radii[0])
         for solid, place in ((self.solids[0], x), (self.solids[1], self.gap - x)):
             for a, b in zip(place, y, strict=True):
-                if solid.is_edge:
+                if solid.is_edge or solid.behind:
                     inside = a < 0.0 and b < solid.edge
                 else:
                     try:

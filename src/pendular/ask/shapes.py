@@ -145,7 +145,8 @@ class Disc(Shape):
     """The flat end of a cylinder.
 
     As a bridge grows it wets the face, is then pinned at the edge, at any angle between those at which it would recede
-    over the face and advance over the side, and would at last wet the side, where it is no longer answered.
+    over the face and advance over the side, and at last wets the side. On the sides of two discs at once it is not
+    answered.
 
     Parameters
     ----------

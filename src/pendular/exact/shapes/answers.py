@@ -8,22 +8,24 @@ from ..algebra import Four, moved, unit_vector
 from ..answers import FAILED, FOUND, LARGEST_MISS, LOWER_END, MET, NO_BRIDGE, RUPTURE, STABLE, UNSTABLE
 from ..clearance import radius_range
 from ..curve import Curve, corrected
-from ..equations import SUCTION, system_at
+from ..equations import SUCTION, Held, system_at
 from ..follow import BRANCH_ENDS, NOTHING
 from ..locate import ARRIVED, ENDED, FOLD, PITCHFORK
 from ..solids import Solid
-from ..solids.edge import Edge
+from ..solids.edge import Edge, Side
 from ..state import State, describe
 from .pieces import is_flat
 from .retold import retold
-from .search import Found, Indices, Question, anchor, lies_on, stable_at
+from .search import Found, Indices, Question, anchor, held_on, lies_on, rooms_at, stable_at
+from .side import has_side
 from .sideways import sideways_directions
 from .surfaces import Surface, shape_at, wetted_area
 from .travel import OFF, Journey, Leg, go_beyond, set_out, travel
 
-SPILLED = 4  # status: the liquid would run over the side of a disc, or beyond a profile
+SPILLED = 4  # status: the liquid would wet the sides of two discs, or run beyond a profile
 
 _ROUNDING = 1e-15
+_AT_EDGE = 1e-9  # room on an edge that is none
 _MISS_OF_SEPARATION = 1e-10  # over ℓ
 _BEYOND = 1e-6  # over the end of a branch, where another may go on
 _MOST_BRANCHES = 4
@@ -71,7 +73,7 @@ def _wetted(surface: Surface, radius: float, as_sphere: float) -> float:
 
 def described(question: Question, on: Indices, z: Four, curve: Curve, unstable: int | None = None) -> Answer:
     """A bridge as an answer, if it holds what it should and is one; ``unstable`` where its index is known."""
-    held = curve.held
+    held = _with_height(z, curve.held)
     state, is_bridge, miss = retold(describe)(z, held, curve.symmetric)
     if not miss <= LARGEST_MISS:
         return _FAILED
@@ -85,6 +87,15 @@ def described(question: Question, on: Indices, z: Four, curve: Curve, unstable: 
         sideways_stable=1.0 if slides or sideways_directions(z, system, held) == 0 else 0.0,
     )
     return Answer(FOUND, whole if unstable is None else whole._replace(unstable_directions=float(unstable)))
+
+
+def _with_height(z: Four, held: Held) -> Held:
+    """What is held, with the height of a line on the side of a cylinder, which the place of its meridian depends on."""
+    if not has_side(held) or held.control == SUCTION:
+        return held
+    height = retold(system_at)(z, held, True, True).height
+    first, second = ((s._replace(height=height) if isinstance(s, Side) else s) for s in (held.first, held.second))
+    return Held(first, second, held.control, held.value)
 
 
 def answer_to(question: Question, asked: int, separation: float, limit: int) -> Answer:
@@ -186,8 +197,27 @@ def _arrived(question: Question, journey: Journey, separation: float) -> Answer:
     if journey.event == ARRIVED or (journey.event in (FOLD, PITCHFORK) and miss <= MET):
         return described(question, journey.on, stance.z, journey.curve, stance.unstable)
     if journey.event == OFF:
-        return _SPILLED
+        return _slid(question, journey, separation)
     return _NOTHING if journey.event in (FOLD, PITCHFORK, ENDED) else _FAILED
+
+
+def _slid(question: Question, journey: Journey, separation: float) -> Answer:
+    """The bridge under suction whose line has come to the side of a cylinder, along which it slides as it is."""
+    on, height = journey.on, journey.stance.separation - separation
+    rooms = rooms_at(question, on, journey.stance.z)
+    after = on[0] + int(rooms[1] < _AT_EDGE), on[1] + int(rooms[3] < _AT_EDGE)
+    bodies = question.first, question.second
+    if question.control != SUCTION or height < 0.0 or after[0] - on[0] + after[1] - on[1] != 1:
+        return _SPILLED
+    if any(number >= len(body) for number, body in zip(after, bodies, strict=True)):
+        return _SPILLED
+    held = held_on(question, after)
+    first, second = (s._replace(height=height) if isinstance(s, Side) else s for s in (held.first, held.second))
+    curve = Curve(Held(first, second, question.control, question.value), False, 1.0)
+    answer = described(question, after, journey.stance.z, curve)
+    if answer.state is None or answer.state.unstable_directions > journey.stance.unstable:
+        return _NOTHING if answer.state is not None else answer
+    return answer._replace(state=answer.state._replace(stiffness=0.0))
 
 
 def _end(question: Question, journey: Journey, contact: float) -> Answer:
@@ -195,7 +225,8 @@ def _end(question: Question, journey: Journey, contact: float) -> Answer:
     if journey.event == ARRIVED and contact == 0.0:
         return _NOTHING
     if journey.event == OFF:
-        return _SPILLED
+        to_contact = _slid(question, journey, 0.0)
+        return _NOTHING if contact == 0.0 and to_contact.status == FOUND else _SPILLED
     if journey.event not in (FOLD, PITCHFORK, ENDED):
         return _FAILED
     if journey.stance.separation < 0.0:

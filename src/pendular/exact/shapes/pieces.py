@@ -7,7 +7,7 @@ from ..meridian import End
 from ..solids import Solid, solid_of
 from ..solids.cone import cone_of, where_begins
 from ..solids.drawn import Spline, drawn_of
-from ..solids.edge import Edge, edge_of
+from ..solids.edge import Edge, Side, edge_of, side_of
 from ..solids.paraboloid import paraboloid_of
 from .surfaces import Surface, asked_slope
 
@@ -47,9 +47,10 @@ def body_of_paraboloid(tip_radius: float, contact_angle: float) -> Body:
 
 
 def body_of_disc(radius: float, pinned: bool, contact_angle: float) -> Body:
-    """The flat end of a cylinder: its face, and its edge; or the edge alone."""
+    """The flat end of a cylinder: its face, its edge, and its side; or the edge alone."""
     edge = Piece(edge_of(radius, contact_angle, pinned))
-    return (edge,) if pinned else (Piece(solid_of(0.0, contact_angle), outer=radius), edge)
+    face, side = Piece(solid_of(0.0, contact_angle), outer=radius), Piece(side_of(radius, contact_angle))
+    return (edge,) if pinned else (face, edge, side)
 
 
 def body_of_drawn(spline: Spline, unit: float, contact_angle: float) -> Body:
@@ -57,9 +58,14 @@ def body_of_drawn(spline: Spline, unit: float, contact_angle: float) -> Body:
     return (Piece(drawn_of(spline, unit, contact_angle), outer=float(spline.knots[-1]) / unit),)
 
 
-def rooms(piece: Piece, end: End) -> tuple[float, float]:
-    """How far a contact circle lies from the inner and the outer end of a piece, positive on it."""
+def rooms(piece: Piece, end: End, height: float) -> tuple[float, float]:
+    """How far a contact circle lies from the inner and the outer end of a piece, positive on it.
+
+    On the side of a cylinder its height behind the end is told by ``height``.
+    """
     surface = piece.surface
+    if isinstance(surface, Side):
+        return height / surface.radius, math.inf
     if isinstance(surface, Edge):
         if surface.is_held:
             return math.inf, math.inf

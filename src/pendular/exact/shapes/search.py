@@ -9,9 +9,10 @@ from ..algebra import Four
 from ..curve import Curve, Stance, stance_at
 from ..equations import SUCTION, VOLUME, Held, curvature_of, system_at
 from ..newton import newton_to
-from ..solids.edge import Edge
+from ..solids.edge import Edge, Side
 from .pieces import Body, Piece, is_flat, rooms
 from .retold import retold
+from .side import Sided
 from .starts import others, starts
 
 _MOST_STEPS = 20
@@ -67,7 +68,8 @@ def rooms_at(question: Question, on: Indices, z: Four) -> tuple[float, float, fl
     """How far both contact circles lie from the ends of their pieces: inner and outer end of each."""
     system = retold(system_at)(z, held_on(question, on), False, False)
     first, second = pieces_on(question, on)
-    return *rooms(first, system.first), *rooms(second, system.second)
+    height = system.height if isinstance(system, Sided) else 0.0
+    return *rooms(first, system.first, height), *rooms(second, system.second, height)
 
 
 def lies_on(question: Question, on: Indices, z: Four) -> bool:
@@ -86,9 +88,17 @@ def _reach(question: Question, separation: float) -> tuple[float, float]:
     return min(lengths), max(lengths)
 
 
+def _pairs(question: Question) -> Iterator[Indices]:
+    """Pairs of pieces on which bridges are looked for; to a side beside an edge they are followed."""
+    for on in product(range(len(question.first)), range(len(question.second))):
+        kinds = [type(piece.surface) for piece in pieces_on(question, on)]
+        if Side not in kinds or (question.control == VOLUME and kinds.count(Side) == 1 and Edge not in kinds):
+            yield on
+
+
 def bridges_at(question: Question, separation: float) -> Iterator[Found]:
     """All bridges that the starts lead to at a separation, stable or not."""
-    for on in product(range(len(question.first)), range(len(question.second))):
+    for on in _pairs(question):
         held = held_on(question, on)
         seen: list[Four] = []
         for start in starts(held, separation, pieces_on(question, on), _reach(question, separation)):
@@ -104,7 +114,7 @@ def bridges_at(question: Question, separation: float) -> Iterator[Found]:
 def _led_at(question: Question, separation: float) -> Iterator[Found]:
     """Bridges to which those that hold something else lead, by small changes of it, while they stay stable."""
     lengths = _reach(question, separation)
-    for on in product(range(len(question.first)), range(len(question.second))):
+    for on in _pairs(question):
         held, pieces = held_on(question, on), pieces_on(question, on)
         for start, own in others(held, separation, pieces, lengths):
             z = _changed(start, separation, own, held)

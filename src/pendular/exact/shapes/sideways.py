@@ -15,6 +15,7 @@ from ..algebra import Four, determinant
 from ..clearance import radius_range
 from ..equations import Held, System, curvature_of, force_of
 from ..meridian import End
+from ..solids.edge import Side
 from .surfaces import Surface, contact_with
 
 _SAMPLES = 257
@@ -39,11 +40,11 @@ def _freed(end: End, side: float, surface: Surface, motion: tuple[Four, Four, Fo
     """Rates of the contact equation and of the distance from the solid."""
     grown, along, tilted = motion
     contact = contact_with(surface, end.radius, end.cos_slope, end.sin_slope)
+    missed = _mixed(contact.mismatch_by_radius, grown, contact.mismatch_by_slope, tilted)
+    if isinstance(surface, Side):  # a cone that is ever so steep
+        return missed, _mixed(0.0, along, -side, grown)
     lift = _mixed(contact.height_by_radius, grown, contact.height_by_slope, tilted)
-    return (
-        _mixed(contact.mismatch_by_radius, grown, contact.mismatch_by_slope, tilted),
-        _mixed(1.0, along, -side, lift),
-    )
+    return missed, _mixed(1.0, along, -side, lift)
 
 
 def _between_held_circles(z: Four, system: System) -> int:

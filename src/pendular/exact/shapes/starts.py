@@ -10,7 +10,8 @@ from typing import NamedTuple
 
 from ..algebra import Four
 from ..equations import SUCTION, Held
-from ..solids.edge import Edge
+from ..solids import Solid
+from ..solids.edge import Edge, Side
 from .pieces import Piece
 from .surfaces import Surface, shape_at
 
@@ -94,7 +95,7 @@ def _ends(held: Held, radius1: float, radius2: float) -> list[tuple[float, float
     ends = []
     both: tuple[tuple[Surface, float], ...] = (held.first, radius1), (held.second, radius2)
     for surface, radius in both:
-        if isinstance(surface, Edge):
+        if isinstance(surface, Edge | Side):
             ends.append((surface.radius, math.nan, 0.0, 0.0))
         else:
             rise = shape_at(surface, radius)
@@ -111,6 +112,8 @@ def circle_through(held: Held, separation: float, free: float) -> Circle:
     if pinned1 and pinned2:
         a, b = first.radius, second.radius
         return Circle(a, b, separation, free, math.atan2(b - a, separation), 0.0)
+    if isinstance(first, Side) or isinstance(second, Side):
+        return _circle_from_side(held, separation, free)
     radius1 = radius2 = free
     for _ in range(_ROUNDS):
         (a, slope1, h1, cap1), (b, slope2, h2, cap2) = _ends(held, radius1, radius2)
@@ -125,6 +128,23 @@ def circle_through(held: Held, separation: float, free: float) -> Circle:
         radius1, radius2 = free - shift, free + shift
     tilt = max(-_MOST_TILT, min(_MOST_TILT, tilt))
     return Circle(a, b, gap, max(-_MOST_BEND, min(_MOST_BEND, x)), tilt, cap1 + cap2)
+
+
+def _circle_from_side(held: Held, separation: float, free: float) -> Circle:
+    """The circle from the side of a cylinder to another surface, whose slopes leave it one place."""
+    first: Surface = held.first
+    is_first = isinstance(first, Side)
+    side: Surface = first if is_first else held.second
+    ends = _ends(held, free, free)
+    radius, slope, depth, cap = ends[1] if is_first else ends[0]
+    x, tilt = 0.5 * (slope - side.contact_angle), 0.5 * (slope + side.contact_angle)
+    rise = math.tan(tilt)
+    gap = (radius - side.radius) / rise if rise != 0.0 else math.nan
+    caps = cap + side.radius**2 * (gap - separation - depth)
+    tilt = max(-_MOST_TILT, min(_MOST_TILT, tilt))
+    if is_first:
+        return Circle(side.radius, radius, gap, x, tilt, caps)
+    return Circle(radius, side.radius, gap, x, -tilt, caps)
 
 
 def _own_value(circle: Circle, control: int) -> float:
@@ -175,12 +195,17 @@ def _between(miss: Callable[[float], float], low: float, high: float) -> float:
     return 0.5 * (low + high)
 
 
+def _equator(surface: Surface) -> float:
+    """Radius beyond which a surface does not reach."""
+    return 1.0 / surface.curvature if isinstance(surface, Solid) and surface.curvature > 0.0 else math.inf
+
+
 def _scanned(held: Held, pieces: tuple[Piece, Piece], reach: tuple[float, float]) -> list[float]:
     """The free numbers that are looked at."""
-    free = [piece for piece in pieces if not isinstance(piece.surface, Edge)]
+    free = [piece for piece in pieces if not isinstance(piece.surface, Edge | Side)]
     if not free:
         return [_MOST_BEND * (2.0 * i / (_BENDS - 1) - 1.0) for i in range(_BENDS)]
-    outer = min(min(1.3 * piece.outer, 1.0 / max(getattr(piece.surface, "curvature", 0.0), 1e-300)) for piece in free)
+    outer = min(min(1.3 * piece.outer, _equator(piece.surface)) for piece in free)
     inner = max(0.7 * piece.inner for piece in free)
     low, high = max(inner, _NARROWEST * reach[0]), min(outer, _WIDEST * reach[1])
     if low >= high:

@@ -5,14 +5,14 @@ from typing import Any
 
 from ..solids import Contact, Solid, half_filling_cosine, half_filling_sine, sphere
 from ..solids.cone import Cone, rise_of_cone, wetted_of_cone
-from ..solids.edge import Edge, contact_with_edge, leaves_freely
+from ..solids.edge import Edge, Side, contact_with_edge, contact_with_side, leaves_freely
 from ..solids.paraboloid import Paraboloid, rise_of_paraboloid, wetted_of_paraboloid
 from ..solids.rise import Rise, cap_of_sphere, contact_on
 
 _AWAY = math.pi  # slope asked of a surface on its wrong side
 
 
-Surface = Any  # a Solid, a Cone, a Paraboloid, an Edge, or one that is drawn
+Surface = Any  # a Solid, a Cone, a Paraboloid, an Edge, a Side, or one that is drawn
 
 
 def rise_of(surface: Surface, radius: float) -> Rise:
@@ -32,7 +32,10 @@ def contact_with(surface: Surface, radius: float, cos_slope: float, sin_slope: f
     if isinstance(surface, Edge):
         return contact_with_edge(surface, radius)
     cosine = half_filling_cosine(surface, cos_slope, sin_slope)
-    return contact_on(rise_of(surface, radius), radius, cosine, half_filling_sine(surface, cos_slope, sin_slope))
+    sine = half_filling_sine(surface, cos_slope, sin_slope)
+    if isinstance(surface, Side):
+        return contact_with_side(surface, cosine, sine)
+    return contact_on(rise_of(surface, radius), radius, cosine, sine)
 
 
 def half_filling_angle(surface: Surface, radius: float, cos_slope: float, sin_slope: float) -> float:
@@ -47,6 +50,8 @@ def half_filling_angle(surface: Surface, radius: float, cos_slope: float, sin_sl
         if not leaves_freely(cos_slope, sin_slope):
             return _AWAY
         return 0.0 if surface.is_held else max(asked_slope(surface, cos_slope, sin_slope), 0.0)
+    if isinstance(surface, Side):
+        return asked_slope(surface, cos_slope, sin_slope)
     rise = rise_of(surface, radius)
     cosine, sine = half_filling_cosine(surface, cos_slope, sin_slope), half_filling_sine(surface, cos_slope, sin_slope)
     is_right = rise.cos_slope * cosine + rise.sin_slope * sine > 0.0
@@ -64,7 +69,7 @@ def depth_inside(surface: Surface, place: float, radius: float) -> float:
     """How far, about, a point lies inside a solid whose tip is at 0 and whose body at negative places."""
     if isinstance(surface, Solid):
         return sphere.depth_inside(surface, place, radius)
-    if isinstance(surface, Edge):
+    if isinstance(surface, Edge | Side):
         return min(-place, surface.radius - radius)
     return -place - rise_of(surface, radius).height
 
@@ -81,6 +86,8 @@ def shape_at(surface: Surface, radius: float) -> Rise:
 
 def wetted_area(surface: Surface, radius: float) -> float:
     """Liquid-solid area within a contact circle on a surface that is neither a sphere nor an edge."""
+    if isinstance(surface, Side):
+        return math.pi * radius * (radius + 2.0 * surface.height)
     if isinstance(surface, Cone):
         return wetted_of_cone(surface, radius)
     if isinstance(surface, Paraboloid):

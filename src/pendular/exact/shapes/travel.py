@@ -14,10 +14,12 @@ from numpy.typing import NDArray
 from ...ground.root import root_between
 from ..algebra import Four, moved, unit_vector
 from ..curve import Curve, Stance, corrected, stance_after, stance_at
+from ..equations import VOLUME
 from ..follow import FOLDS, NOTHING, Walk, beyond, follow
 from ..locate import ARRIVED, FOLD, LOST, PITCHFORK
+from ..solids.edge import Side
 from .retold import retold
-from .search import Found, Indices, Question, curve_through, held_on, is_symmetric, rooms_at
+from .search import Found, Indices, Question, curve_through, held_on, is_symmetric, pieces_on, rooms_at
 
 Nodes = NDArray[np.float64]
 
@@ -154,7 +156,7 @@ def _round_corner(
     best = None
     for one, other in ((1, 1),) if curve.symmetric else ((1, 0), (0, 1), (1, 1)):
         after = on[0] + one * shift[0], on[1] + other * shift[1]
-        if after == on or not (0 <= after[0] < len(question.first) and 0 <= after[1] < len(question.second)):
+        if after == on or not _is_answered(question, after):
             continue
         onward = _onward(question, after, last.z, curve.symmetric)
         if onward is None:
@@ -165,6 +167,14 @@ def _round_corner(
         if best is None or best[0] == LOST:
             best = event, onward
     return best
+
+
+def _is_answered(question: Question, on: Indices) -> bool:
+    """Whether there are two such pieces, of which one at most is the side of a cylinder, and that at a volume."""
+    if not (0 <= on[0] < len(question.first) and 0 <= on[1] < len(question.second)):
+        return False
+    sides = sum(isinstance(piece.surface, Side) for piece in pieces_on(question, on))
+    return sides == 0 or (sides == 1 and question.control == VOLUME)
 
 
 def _onward(question: Question, after: Indices, z: Four, symmetric: bool) -> tuple[Stance, Curve, Indices] | None:
