@@ -177,6 +177,22 @@ def test_the_force_on_a_side_is_the_slope_of_the_energy():
     assert (force[0] - 8.0 * force[1] + 8.0 * force[3] - force[4]) / 0.012 == pytest.approx(five[2].stiffness, rel=1e-6)
 
 
+@pytest.mark.parametrize("volume", [0.3, 2.5])
+def test_a_profile_begins_and_ends_on_its_solids(volume):
+    solids = (pl.Disc(1.0), pl.Paraboloid(2.0))
+    found = pl.bridge(pl.Pair(solids, 0.5), 0.3, volume=volume, liquid=UNIT)
+    shape = found.profile(4001)
+    behind = found.wetted_area[0] / (2.0 * math.pi) - 0.5 if volume > 1.0 else 0.0
+    assert behind == 0.0 or behind > 0.05
+    assert shape.x[0] == pytest.approx(-behind, abs=1e-12)
+    assert shape.x[-1] == pytest.approx(0.3 + shape.y[-1] ** 2 / 4.0, rel=1e-9)
+    turned = math.pi * np.trapezoid(shape.y**2, shape.x)
+    liquid = turned - math.pi * behind - math.pi * shape.y[-1] ** 4 / 8.0
+    assert liquid == pytest.approx(volume, rel=1e-5)
+    assert shape.solid_y[0].max() == 1.0
+    np.testing.assert_allclose(shape.solid_x[1] - 0.3, shape.solid_y[1] ** 2 / 4.0, atol=1e-12)
+
+
 def test_under_suction_a_line_slides_along_the_side_of_a_cylinder():
     pair = pl.Pair((pl.Disc(1.0), 3.0), np.deg2rad(15.0))
     held = {"suction": 0.35, "liquid": UNIT}

@@ -60,7 +60,8 @@ class Pair:
     @property
     def shape(self) -> Shape | None:
         """The first of its solids that is neither a sphere nor a plane, if there is one."""
-        return next((solid for solid in self.solids if isinstance(solid, Shape)), None)
+        given = self.radius if isinstance(self.radius, tuple) else (self.radius,)
+        return next((solid for solid in given if isinstance(solid, Shape)), None)
 
     @property
     def radii(self) -> tuple[Floats, Floats]:

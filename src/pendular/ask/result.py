@@ -98,7 +98,7 @@ class Bridge:
         """Depth of a contact circle behind the pole of its solid."""
         shape, radius = self._shapes[solid], self._solid_radius[..., solid]
         if shape is not None:
-            return shape.depth(self.contact_radius[..., solid])
+            return shape.line_depth(self.contact_radius[..., solid], self.wetted_area[..., solid])
         with np.errstate(invalid="ignore"):
             sagitta: Floats = 2.0 * radius * np.sin(0.5 * self.half_filling_angle[..., solid]) ** 2
         return np.where(np.isinf(radius), 0.0, sagitta)

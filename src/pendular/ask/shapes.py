@@ -36,6 +36,10 @@ class Shape(ABC):
     def depth(self, radius: Floats) -> Floats:
         """Depth of its surface behind the tip at distances from the axis, [m]."""
 
+    def line_depth(self, radius: Floats, wetted: Floats) -> Floats:
+        """Depth of a contact line of a radius and a wetted area behind the tip, [m]."""
+        return self.depth(radius)
+
     def outline(self, reach: Floats, points: int) -> tuple[Floats, Floats]:
         """Depths and radii of its surface from the tip out to a distance from the axis, on a further last axis."""
         radius = np.asarray(reach)[..., None] * np.linspace(0.0, 1.0, points)
@@ -192,6 +196,11 @@ class Disc(Shape):
     def depth(self, radius: Floats) -> Floats:
         """Depth of its face, 0."""
         return 0.0 * radius
+
+    def line_depth(self, radius: Floats, wetted: Floats) -> Floats:
+        """Depth of a contact line behind the face, [m]: on the side the area tells it."""
+        depth: Floats = wetted / (2.0 * math.pi * self.radius) - 0.5 * self.radius
+        return np.where(radius < self.radius * (1.0 - 1e-9), 0.0, np.maximum(depth, 0.0))
 
     def outline(self, reach: Floats, points: int) -> tuple[Floats, Floats]:
         """Depths and radii of the face and the side, as far back as a length."""
