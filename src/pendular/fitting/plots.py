@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-import textwrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..ground.colours import ACCENT, FAINT, HAIR, INK, LIQUID, LIQUID_EDGE
-from ..ground.look import COLUMN, dress
+from ..ground.look import COLUMN, dress, head_height, write_head
 from ..ground.units import Scale, scale_of
 from .words import value_words
 
@@ -25,7 +24,6 @@ __all__ = ["fit_figure"]
 Floats = NDArray[np.float64]
 
 _WIDTH, _CURVE, _RESIDUALS = COLUMN, 2.9, 1.6  # in, of the picture and of its two panels
-_TITLE, _LINE, _LETTERS = 0.47, 0.18, 60  # in, of the title and of a line below it; letters of that
 _ROW, _IN_A_ROW = 0.62, 3  # in, of a row of numbers; numbers in it
 _FINE = 400  # points of the line
 _BEFORE_RUPTURE = 1e-4  # root of the way before rupture, over the curve, to which a line goes
@@ -49,15 +47,12 @@ def fit_figure(fit: Fit, *, title: str = "", subtitle: str = "") -> Figure:
     """
     from matplotlib.figure import Figure
 
-    told = textwrap.wrap(subtitle, _LETTERS)
-    above = _TITLE + _LINE * len(told) if title else 0.1
-    head = above + _ROW * math.ceil(len(fit.free) / _IN_A_ROW)
-    height = head + _CURVE + _RESIDUALS
+    above = head_height(title, subtitle)
+    height = above + _ROW * math.ceil(len(fit.free) / _IN_A_ROW) + _CURVE + _RESIDUALS
     drawing = Figure(figsize=(_WIDTH, height), facecolor="white")
     upper = drawing.add_axes((0.135, (_RESIDUALS + 0.05) / height, 0.84, (_CURVE - 0.25) / height))
     lower = drawing.add_axes((0.135, 0.45 / height, 0.84, (_RESIDUALS - 0.55) / height), sharex=upper)
-    drawing.text(0.03, 1.0 - 0.2 / height, title, size=10.5, weight="bold", color=INK, va="center")
-    drawing.text(0.03, 1.0 - 0.35 / height, "\n".join(told), size=9, color=FAINT, va="top")
+    write_head(drawing, title, subtitle)
     length = scale_of(float(np.max(np.abs(fit.separation))), "m")
     strength = scale_of(float(np.max(np.abs(fit.force))), "N")
     _draw_curve(upper, fit, length, strength)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Mapping
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
@@ -12,13 +13,15 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["COLUMN", "HELD", "TITLE", "angle_colour", "dress", "panels"]
+__all__ = ["COLUMN", "HELD", "TITLE", "angle_colour", "dress", "head_height", "panels", "write_head"]
 
 COLUMN = 4.4  # in: on a phone of 360 pixels, and 85 mm wide in an article of two columns, its letters are 7 points high
 
 TITLE: Mapping[str, Any] = {"loc": "left", "size": 10, "color": INK}  # of a panel
 HELD = {"suction": LIQUID_EDGE, "volume": ACCENT, "humidity": "#2f7d5b"}
 
+_TITLE_LETTERS, _SUBTITLE_LETTERS = 44, 60  # in a column
+_TITLE_LINE, _SUBTITLE_LINE, _MARGIN = 0.2, 0.18, 0.1  # in
 _ANGLES = ((0.0, "#5b4a91"), (45.0, "#b0417c"), (90.0, "#c77d20"), (180.0, "#5d7a1f"))  # degrees
 
 
@@ -77,3 +80,22 @@ def dress(axes: Axes) -> None:
     for axis in (axes.xaxis, axes.yaxis):
         axis.label.set(color=FAINT, size=10)
         axis.get_offset_text().set(color=FAINT, size=9)
+
+
+def head_height(title: str, subtitle: str) -> float:
+    """What title and subtitle take of a picture that is as wide as a column, [in]."""
+    lines = _lines(title, subtitle)
+    return 2.0 * _MARGIN + _TITLE_LINE * len(lines[0]) + _SUBTITLE_LINE * len(lines[1])
+
+
+def write_head(drawing: Figure, title: str, subtitle: str) -> None:
+    """Write title and subtitle at the upper edge of a picture that is as wide as a column, in lines that fit."""
+    height = drawing.get_figheight()
+    titles, subtitles = _lines(title, subtitle)
+    low = _MARGIN + _TITLE_LINE * len(titles)
+    drawing.text(0.03, 1.0 - _MARGIN / height, "\n".join(titles), size=10.5, weight="bold", color=INK, va="top")
+    drawing.text(0.03, 1.0 - (low + 0.02) / height, "\n".join(subtitles), size=9, color=FAINT, va="top")
+
+
+def _lines(title: str, subtitle: str) -> tuple[list[str], list[str]]:
+    return textwrap.wrap(title, _TITLE_LETTERS), textwrap.wrap(subtitle, _SUBTITLE_LETTERS)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..ground.colours import ACCENT, FAINT, GRAIN, HAIR, INK, LIQUID_EDGE
-from ..ground.look import dress
+from ..ground.look import COLUMN, dress, head_height, write_head
 from ..ground.units import scale_of, show
 from .rendering import image_of, view_of
 from .retention import Retention, Walk
@@ -24,6 +24,8 @@ __all__ = ["draw_heap", "draw_retention"]
 Floats = NDArray[np.float64]
 
 _PIXELS = 1400
+_PANELS = 6.6  # in, of those of a retention
+_ROWS = ((4.3, 2.2), (3.2, 1.0), (0.5, 2.1))  # lower edge and height of each, [in]
 _LIQUID = "#3f86bd"
 _STYLES = {"drying": (LIQUID_EDGE, "-"), "wetting": (ACCENT, "-")}
 
@@ -44,12 +46,10 @@ def draw_retention(curves: Retention, title: str = "", subtitle: str = "") -> Fi
     """
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(9.6, 5.2), facecolor="white")
-    grid = figure.add_gridspec(
-        2, 2, left=0.085, right=0.985, bottom=0.11, top=0.86, wspace=0.22, hspace=0.08, height_ratios=(2.0, 1.0)
-    )
-    left, right = figure.add_subplot(grid[0, 0]), figure.add_subplot(grid[:, 1])
-    below = figure.add_subplot(grid[1, 0], sharex=left)
+    height = _PANELS + head_height(title, subtitle)
+    figure = Figure(figsize=(COLUMN, height), facecolor="white")
+    left, below, right = (figure.add_axes((0.16, low / height, 0.8, high / height)) for low, high in _ROWS)
+    below.sharex(left)
     scale = scale_of(float(curves.suction.max()), "Pa")
     stress = scale_of(float(np.nanmax(curves.walks[0].values["suction_stress"])), "Pa")
     drying = curves.walks[0].values["saturation"]
@@ -65,9 +65,8 @@ def draw_retention(curves: Retention, title: str = "", subtitle: str = "") -> Fi
     _mark_limit(left, below, right, curves, scale.factor)
     for axes in (left, below, right):
         dress(axes)
-    left.legend(frameon=False, fontsize=9, loc="lower left")
-    figure.text(0.015, 0.95, title, color=INK, fontsize=12, weight="bold", va="center")
-    figure.text(0.015, 0.895, subtitle, color=FAINT, fontsize=9, va="center")
+    left.legend(frameon=False, fontsize=9, labelcolor=INK, loc="lower left")
+    write_head(figure, title, subtitle)
     return figure
 
 
