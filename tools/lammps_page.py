@@ -234,7 +234,7 @@ Two grains of 50 µm and 100 µm come together and are pulled apart at 5 kPa, in
 """
 
 PACKING = """
-![Force of LAMMPS and YADE on the exact curve, from contact to rupture, and their errors](images/two_grains.svg)
+![Force of LAMMPS and YADE on the exact curve, from contact to rupture, and their errors](images/two_grains.svg){.wide}
 
 The error of LAMMPS is that of the table. YADE interpolates linearly in files of finite size, and breaks the bridge
 where a block of the file ends. `uv run --group test --group lammps pytest tests/test_lammps.py` compares packings with
@@ -250,7 +250,7 @@ packing between two rough walls under a constant load; then it goes back and she
 """
 
 LESSONS = """
-![A slice of the packing, its shear stress against the strain, and the strength gained](images/wet_shear.svg)
+![A slice of the packing, its shear stress against the strain, and the strength gained](images/wet_shear.svg){.wide}
 
 - *Found* is the shear stress in the second half of the strain above that of the dry packing. *By stress* multiplies the
   vertical stress of the bridges, taken in LAMMPS, by the friction of the dry packing: bridges press the grains together

@@ -115,7 +115,7 @@ def draw(folder: Path) -> None:
 def page() -> str:
     """Text of the page."""
     parts = [INTRODUCTION, *map(line, summary()), SIDE_BY_SIDE]
-    parts += [f"`{command}`\n\n![{alternative(name)}](images/{name})\n\n" for name, command in pictures()]
+    parts += [f"`{command}`\n\n![{alternative(name)}](images/{name}){{.wide}}\n\n" for name, command in pictures()]
     parts += [CONTENTS]
     return "".join(parts).rstrip() + "\n"
 

