@@ -199,6 +199,23 @@ def test_a_link_that_leads_nowhere_is_found(tmp_path):
     assert site.links_outside(tmp_path, links) == {"https://doi.org/10.1/x": {"a/c.html"}}
 
 
+@pytest.mark.needs("docs")
+def test_a_search_that_needs_a_server_is_found(tmp_path):
+    from tools import site
+
+    (tmp_path / "_static").mkdir()
+    assert site.why_not_searched(tmp_path) == [
+        "searchindex.js is not there",
+        "documentation_options.js is not there",
+    ]
+    (tmp_path / "searchindex.js").touch()
+    options = tmp_path / "_static" / "documentation_options.js"
+    options.write_text("SHOW_SEARCH_SUMMARY: true,")
+    assert len(site.why_not_searched(tmp_path)) == 1
+    options.write_text("SHOW_SEARCH_SUMMARY: false,")
+    assert site.why_not_searched(tmp_path) == []
+
+
 def test_pages_name_no_address_outside_and_no_missing_file():
     for name, path in PAGES.items():
         for target in re.findall(

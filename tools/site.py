@@ -1,7 +1,8 @@
 """Build the site and check its pages: ``python -m tools.site [folder]``.
 
-They load nothing from elsewhere, and every link within the site leads to a page, a file or a place on a page. Addresses
-outside are listed in ``links.txt`` beside the site, with the pages that name them; nothing is asked of the network.
+They load nothing from elsewhere, every link within the site leads to a page, a file or a place on a page, and the
+search works from files. Addresses outside are listed in ``links.txt`` beside the site, with the pages that name them;
+nothing is asked of the network.
 """
 
 import re
@@ -47,7 +48,7 @@ def main(folder: Path) -> int:
     pages = {path: path.read_text("utf-8") for path in sorted(folder.glob("**/*.html"))}
     wrong = [f"{path.name} loads {address}" for path, html in pages.items() for address in loaded_from_outside(html)]
     links = {path: Links(html) for path, html in pages.items()}
-    wrong += broken_links(folder, links)
+    wrong += [*broken_links(folder, links), *why_not_searched(folder)]
     outside = links_outside(folder, links)
     lines = [f"{address}  {' '.join(sorted(naming))}" for address, naming in sorted(outside.items())]
     (folder.parent / "links.txt").write_text("\n".join([*lines, ""]), encoding="utf-8")
@@ -81,6 +82,15 @@ def broken_links(folder: Path, links: dict[Path, Links]) -> list[str]:
             ):
                 wrong.append(f"{path.relative_to(folder)}: {target} has no such place")
     return wrong
+
+
+def why_not_searched(folder: Path) -> list[str]:
+    """Why the search fails where the site is opened from files: no index, or it asks for the pages that it finds."""
+    index, options = folder / "searchindex.js", folder / "_static" / "documentation_options.js"
+    missing = [f"{file.name} is not there" for file in (index, options) if not file.is_file()]
+    if not missing and "SHOW_SEARCH_SUMMARY: false" not in options.read_text("utf-8"):
+        return ["the search asks for pages, which a browser grants no file"]
+    return missing
 
 
 def links_outside(folder: Path, links: dict[Path, Links]) -> dict[str, set[str]]:
