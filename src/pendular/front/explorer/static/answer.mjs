@@ -7,7 +7,7 @@ import { questionOf } from "./view.mjs";
 
 const CURVE_POINTS = 97; // enough to look smooth at the width of a screen
 const LAW_POINTS = 97;
-const OTHER_POINTS = 41; // of a law of the other control, which needs an exact bridge for each
+const OTHER_POINTS = 33; // of a law of the other control, which needs an exact bridge for each
 const BEYOND = 1.3; // over the exact rupture distance: where a law that knows none is drawn to
 const SAME = 1e-6; // by how much the forces of two answers for one bridge may differ
 const SLACK = 1e-12; // of an angle of 40° in radians, say

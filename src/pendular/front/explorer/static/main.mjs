@@ -450,12 +450,24 @@ async function copy(button) {
   const text = what === "link" ? `${location.href.replace(/#.*/, "")}#${hashOf(answer.view)}` : at(what).textContent;
   const before = button.textContent;
   try {
-    await navigator.clipboard.writeText(text);
+    if (navigator.clipboard) await navigator.clipboard.writeText(text);
+    else copyOldWay(text);
     button.textContent = "Copied";
   } catch {
     button.textContent = "Not allowed here";
   }
   setTimeout(() => (button.textContent = before), 1500);
+}
+
+/** Browsers lend the clipboard only to pages of the same machine, or over https. */
+function copyOldWay(text) {
+  const area = document.createElement("textarea");
+  area.value = text;
+  document.body.append(area);
+  area.select();
+  const isDone = document.execCommand("copy");
+  area.remove();
+  if (!isDone) throw new Error("not copied");
 }
 
 // -- The beginning ---------------------------------------------------------------------------------------------------
