@@ -159,7 +159,8 @@ def condensation_separation(
     -----
     **Validity.** As :func:`filmed`; the energy of the films to the first order, for W much less than γ. A bridge
     between this separation and that of rupture lives on, but has a higher energy than the films. One that is not there
-    waits for a fluctuation, at the latest until the films touch. Between large spheres it tends to 2γ/Δp + 3t, the
+    waits for a fluctuation, at the latest until the films touch. With W it may come to lie beyond the rupture of
+    :func:`filmed` solids, which knows no W. Between large spheres it tends to 2γ/Δp + 3t, the
     distance between planes that Derjaguin found.
 
     References

@@ -53,6 +53,7 @@ _OPTIONS = {
     "name": "liquid",
     "force_error": "force-error",
     "jump_in": "jump-in",
+    "hamaker_constant": "hamaker",
     "contact_angle": "contact-angle",
     "contact_line": "contact-line",
     "advancing_angle": "advancing-angle",

@@ -18,6 +18,7 @@ from . import (  # noqa: F401, registers the commands
     export_table,
     export_wasm,
     export_yade_engine,
+    films,
     fits,
     laws,
     packing,
