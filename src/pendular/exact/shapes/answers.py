@@ -107,13 +107,13 @@ def answer_to(question: Question, asked: int, separation: float, limit: int) -> 
         return _stable(question, separation, limit)
     if asked == LOWER_END:
         start = anchor(question)
-        return _FAILED if start is None else _end(question, _down(question, start[0], limit), 0.0)
+        return _FAILED if start is None else _end(question, asked, _down(question, start[0], limit, 0.0))
     last = _last(question, limit)
     if last is None:
         return _FAILED
     top = last.top
     if asked == RUPTURE:
-        return _end(question, top, math.inf)
+        return _end(question, asked, top)
     if top.event not in (FOLD, PITCHFORK):
         return _SPILLED if top.event == OFF else _FAILED
     if separation >= top.stance.separation:
@@ -182,10 +182,9 @@ def _up(question: Question, found: Found, limit: int) -> Journey:
     return travel(question, (stance, curve, found.on), math.nan, limit)
 
 
-def _down(question: Question, found: Found, limit: int, target: float = 0.0) -> Journey:
+def _down(question: Question, found: Found, limit: int, target: float) -> Journey:
     stance, curve = set_out(question, found, -1.0)
-    are_flat = is_flat(question.first) and is_flat(question.second)
-    return travel(question, (stance, curve, found.on), math.nan if are_flat and target == 0.0 else target, limit)
+    return travel(question, (stance, curve, found.on), target, limit)
 
 
 def _arrived(question: Question, journey: Journey, separation: float) -> Answer:
@@ -220,21 +219,19 @@ def _slid(question: Question, journey: Journey, separation: float) -> Answer:
     return answer._replace(state=answer.state._replace(stiffness=0.0))
 
 
-def _end(question: Question, journey: Journey, contact: float) -> Answer:
-    """The end of a branch at which a journey arrived."""
-    if journey.event == ARRIVED and contact == 0.0:
-        return _NOTHING
-    if journey.event == OFF:
-        to_contact = _slid(question, journey, 0.0)
-        return _NOTHING if contact == 0.0 and to_contact.status == FOUND else _SPILLED
+def _end(question: Question, asked: int, journey: Journey) -> Answer:
+    """The end of a branch at which a journey arrived: rupture, or a lower end if it does not go on to contact."""
+    if asked == LOWER_END and journey.event in (ARRIVED, OFF):
+        goes_on = journey.event == ARRIVED or _slid(question, journey, 0.0).status == FOUND
+        return _NOTHING if goes_on else _SPILLED
     if journey.event not in (FOLD, PITCHFORK, ENDED):
-        return _FAILED
+        return _SPILLED if journey.event == OFF else _FAILED
     if journey.stance.separation < 0.0:
         return _NOTHING
     answer = described(question, journey.on, journey.stance.z, journey.curve, journey.stance.unstable)
-    if answer.state is not None and journey.event == FOLD and not journey.is_corner:
-        return answer._replace(state=answer.state._replace(stiffness=-math.inf if contact else math.inf))
-    return answer
+    if answer.state is None or journey.event != FOLD or journey.is_corner:
+        return answer
+    return answer._replace(state=answer.state._replace(stiffness=math.inf if asked == LOWER_END else -math.inf))
 
 
 _Steps = list[tuple[Indices, Curve, Four, Four]]  # neighbours on curves
@@ -256,7 +253,7 @@ def curve_of(question: Question, limit: int, points: int) -> list[Answer]:
     middle = points // 2
     stable = _steps_back(bottom.legs) + _steps(top.legs)
     answers = _spread(question, stable, middle, 0.0)
-    answers.append(_end(question, top, math.inf))
+    answers.append(_end(question, RUPTURE, top))
     down = [] if top.event == ENDED else travel(question, go_beyond(question, top), 0.0, NOTHING).legs
     answers += _spread(question, _thinning(_steps(down)), points - middle - 1, 1.0)
     first = answers[0].state

@@ -179,7 +179,7 @@ def _less(a: Four, b: Four) -> tuple[float, ...]:
     return tuple(x - y for x, y in zip(a, b, strict=True))
 
 
-def stance_of(question: Question, found: Found) -> Stance:
+def _stance_of(question: Question, found: Found) -> Stance:
     """A bridge as one on a curve."""
     stance: Stance = retold(stance_at)(found.z, curve_through(question, found))
     return stance
@@ -188,17 +188,16 @@ def stance_of(question: Question, found: Found) -> Stance:
 def stable_at(question: Question, separation: float, *, thoroughly: bool = False) -> Iterator[Found]:
     """The stable bridges that the starts lead to at a separation, or ``thoroughly`` those of other bridges."""
     for found in (_led_at if thoroughly else bridges_at)(question, separation):
-        stance = stance_of(question, found)
+        stance = _stance_of(question, found)
         if stance.unstable == 0 and stance.opening > 0.0:
             yield found
 
 
-def separations_to_try(question: Question) -> Iterator[float]:
+def _separations_to_try(question: Question) -> Iterator[float]:
     """Where a stable bridge is likely."""
     are_flat = is_flat(question.first) and is_flat(question.second)
-    edges = [
-        body[-1].surface.radius for body in (question.first, question.second) if isinstance(body[-1].surface, Edge)
-    ]
+    pieces = (*question.first, *question.second)
+    edges = [piece.surface.radius for piece in pieces if isinstance(piece.surface, Edge)]
     if question.control == VOLUME:
         naturals = [(math.pi * question.value) ** (1.0 / 3.0)]
         naturals += [question.value / edge**2 for edge in edges[:1]]
@@ -214,7 +213,7 @@ def separations_to_try(question: Question) -> Iterator[float]:
 def anchor(question: Question) -> tuple[Found, float] | None:
     """A stable bridge, wherever one is found, and its separation."""
     for thoroughly in (False, True):
-        for i, separation in enumerate(separations_to_try(question)):
+        for i, separation in enumerate(_separations_to_try(question)):
             if thoroughly and i == _MOST_THOROUGH:
                 return None
             for found in stable_at(question, separation, thoroughly=thoroughly):

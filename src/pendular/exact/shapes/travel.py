@@ -81,7 +81,7 @@ def travel(question: Question, start: tuple[Stance, Curve, Indices], target: flo
         z = _corner(question, on, before, after, curve)
         nodes[cut] = z
         legs.append(Leg(on, curve, nodes[: cut + 1]))
-        last = _just_before(z, curve, legs[-1].nodes)
+        last = _just_before(z, curve)
         turned = _round_corner(question, on, last, curve)
         if turned is None or turned[0] == LOST:
             return Journey(legs, OFF if turned is None else LOST, last, curve, on, _sign(last.slope), True, None)
@@ -136,7 +136,7 @@ def _corner(question: Question, on: Indices, before: Four, after: Four, curve: C
     return at(root_between(room, 0.0, 1.0, 1e-14))
 
 
-def _just_before(z: Four, curve: Curve, nodes: Nodes) -> Stance:
+def _just_before(z: Four, curve: Curve) -> Stance:
     """The bridge at a corner, with the slope and the stability that the way to it has."""
     stance: Stance = retold(stance_at)(z, curve)
     near: Stance = retold(stance_after)(stance, -_PROBE, curve)[0]
