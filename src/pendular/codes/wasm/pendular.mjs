@@ -14,6 +14,7 @@
 // Copyright (c) 2026, the Pendular developers. SPDX-License-Identifier: BSD-3-Clause. Without any warranty.
 
 const FIELDS = ${fields};
+const AT = Object.fromEntries(FIELDS.map((name, i) => [name, i]));
 const [FOUND, NO_BRIDGE, FAILED] = [0, 1, 2];
 const CONTROLS = ["suction", "volume"];
 const IMPORTS = ["acos", "asin", "atan", "atan2", "cos", "exp", "hypot", "log", "log1p", "pow", "sin", "tan"];
@@ -138,26 +139,25 @@ function both(name, value) {
 }
 
 function stateOf(row, angles, surfaceTension) {
-  const of = Object.fromEntries(FIELDS.map((name, i) => [name, row[i]]));
-  const energy = of.area - Math.cos(angles[0]) * of.wetted_area1 - Math.cos(angles[1]) * of.wetted_area2;
+  const energy = row[AT.area] - Math.cos(angles[0]) * row[AT.wetted_area1] - Math.cos(angles[1]) * row[AT.wetted_area2];
   return {
-    separation: of.separation,
-    suction: of.curvature * surfaceTension,
-    volume: of.volume,
-    force: of.force,
-    stiffness: of.stiffness,
-    neckRadius: of.neck_radius,
-    neckInside: of.neck_inside === 1,
-    contactRadius: [of.radius1, of.radius2],
-    halfFillingAngle: [of.filling1, of.filling2],
-    liquidGasArea: of.area,
-    wettedArea: [of.wetted_area1, of.wetted_area2],
+    separation: row[AT.separation],
+    suction: row[AT.curvature] * surfaceTension,
+    volume: row[AT.volume],
+    force: row[AT.force],
+    stiffness: row[AT.stiffness],
+    neckRadius: row[AT.neck_radius],
+    neckInside: row[AT.neck_inside] === 1,
+    contactRadius: [row[AT.radius1], row[AT.radius2]],
+    halfFillingAngle: [row[AT.filling1], row[AT.filling2]],
+    liquidGasArea: row[AT.area],
+    wettedArea: [row[AT.wetted_area1], row[AT.wetted_area2]],
     surfaceEnergy: surfaceTension * energy,
-    grandPotential: surfaceTension * (energy + of.curvature * of.volume),
-    capillaryTensor: [of.across_tensor, of.axial_tensor],
-    unstableDirections: of.unstable_directions,
-    sidewaysStable: of.sideways_stable === 1,
-    stable: of.unstable_directions === 0 && of.sideways_stable === 1,
-    meridian: { radius: of.middle_radius, slope: of.middle_slope, halfLength: of.half_length, curvature: of.curvature },
+    grandPotential: surfaceTension * (energy + row[AT.curvature] * row[AT.volume]),
+    capillaryTensor: [row[AT.across_tensor], row[AT.axial_tensor]],
+    unstableDirections: row[AT.unstable_directions],
+    sidewaysStable: row[AT.sideways_stable] === 1,
+    stable: row[AT.unstable_directions] === 0 && row[AT.sideways_stable] === 1,
+    meridian: { radius: row[AT.middle_radius], slope: row[AT.middle_slope], halfLength: row[AT.half_length], curvature: row[AT.curvature] },
   };
 }

@@ -122,8 +122,8 @@ function outlineOf(radius, pole, side, window) {
     const high = window.y + margin;
     return [[pole, high], [far, high], [far, -high], [pole, -high]]; // prettier-ignore
   }
-  const turns = Array.from({ length: 61 }, (_, i) => (Math.PI * i) / 60);
-  for (let i = 0; i <= 60; i++) turns.push(Math.asin(clip01((window.y - margin + (2 * margin * i) / 60) / radius)));
+  const turns = Array.from({ length: 49 }, (_, i) => (Math.PI * i) / 48);
+  for (let i = 0; i <= 48; i++) turns.push(Math.asin(clip01((window.y - margin + (2 * margin * i) / 48) / radius)));
   turns.sort((one, other) => one - other);
   const upper = turns.map((turn) => [pole + side * 2 * radius * Math.sin(0.5 * turn) ** 2, radius * Math.sin(turn)]);
   return [...upper, ...upper.map(([x, y]) => [x, -y]).reverse()];
