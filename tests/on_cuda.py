@@ -1,4 +1,4 @@
-"""What `test_cuda.py` runs in processes of its own: ``python tests/on_cuda.py simulate|page|compile FOLDER``.
+"""What `test_cuda.py` runs in processes of its own: ``python tests/on_cuda.py simulate|solve|page|compile FOLDER``.
 
 In Numba's simulator, which needs ``NUMBA_ENABLE_CUDASIM=1``, threads of the GPU run as Python; ``NUMBA_DISABLE_JIT=1``
 makes Python of the scalar kernels as well.
@@ -13,6 +13,8 @@ from numba import cuda, typeof, types
 
 import pendular as pl
 from documents import assert_python_prints_what_it_says
+from pendular.ask import cuda as solver_on_gpu
+from pendular.ask.fields import room_for
 from pendular.table import cuda as table_on_gpu
 from pendular.table import kernels
 
@@ -59,6 +61,16 @@ def simulate(folder):
         work_of[4, (out.size + 3) // 4](table.grid, *map(cuda.to_device, arguments), out)
         np.savez(folder / f"{name}.answers.npz", own_kernel=out.copy_to_host(), **found)
     check_arrays(table, *arguments)
+
+
+def solve(folder):
+    """Exact forces of the contacts in the folder, by the solver."""
+    for held in ("suction", "volume"):
+        arguments = tuple(np.load(folder / f"solver.{held}.npz").values())
+        found = solver_on_gpu.bridge_force(*arguments, GAMMA, held=held)
+        there = solver_on_gpu.bridge_force(*map(cuda.to_device, arguments), GAMMA, held=held)
+        assert np.array_equal(there.copy_to_host(), found, equal_nan=True)
+        np.save(folder / f"solver.{held}.npy", found)
 
 
 def check_arrays(table, separation, control, radius1, radius2):
@@ -123,7 +135,11 @@ def compile_to_ptx(folder):
         (folder / f"{scalar.__name__.strip('_')}.ptx").write_text(text)
     text, _ = cuda.compile(work_of.py_func, types.void(grid, *5 * (row,)), device=False, abi="numba", cc=(8, 0))
     (folder / "own_kernel.ptx").write_text(text)
+    asking = (types.int64, *6 * (row,), types.float64, types.float64[:, ::1], typeof(room_for(1, ("force",))))
+    loop = solver_on_gpu.loop().py_func
+    text, _ = cuda.compile(loop, types.void(*asking, types.int8[::1], row), device=False, abi="numba", cc=(8, 0))
+    (folder / "solver.ptx").write_text(text)
 
 
 if __name__ == "__main__":
-    {"simulate": simulate, "page": run_page, "compile": compile_to_ptx}[sys.argv[1]](Path(sys.argv[2]))
+    {"simulate": simulate, "solve": solve, "page": run_page, "compile": compile_to_ptx}[sys.argv[1]](Path(sys.argv[2]))

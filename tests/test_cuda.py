@@ -103,13 +103,54 @@ def test_the_page_does_what_it_shows(folder):
     assert done.returncode == 0, done.stderr
 
 
+def solver_contacts(held, random):
+    """Planes, equal and unequal spheres of any angles, up to rupture and beyond; then rows that are no question."""
+    radius1 = 10.0 ** random.uniform(-6, -4, COUNT)
+    radius2 = radius1 * random.uniform(1.0, 5.0, COUNT) ** random.choice([-1, 0, 1], COUNT)
+    radius2[:4] = math.inf
+    angle1, angle2 = random.uniform(0.0, 1.5, (2, COUNT))
+    mean = 2.0 / (1.0 / radius1 + 1.0 / radius2)
+    reduced = 10.0 ** (random.uniform(-9, 0, COUNT) if held == "volume" else random.uniform(-1, 6, COUNT))
+    control = reduced * mean**3 if held == "volume" else reduced * GAMMA / mean
+    pair, liquid = pl.Pair((radius1, radius2), (angle1, angle2)), pl.Liquid(surface_tension=GAMMA)
+    separation = random.uniform(-0.02, 1.1, COUNT) * pl.rupture(pair, **{held: control}, liquid=liquid).separation
+    control[6], separation[7], angle2[8], angle1[9] = math.nan, math.inf, math.nan, 4.0
+    return separation, control, radius1, radius2, angle1, angle2
+
+
+def test_the_solver_is_that_of_the_processor(tmp_path):
+    print(f"seed {SEED}")
+    random = np.random.default_rng(SEED)
+    asked = {held: solver_contacts(held, random) for held in ("suction", "volume")}
+    for held, arguments in asked.items():
+        np.savez(tmp_path / f"solver.{held}.npz", *arguments)
+    done = run("solve", tmp_path, **SIMULATOR)
+    assert done.returncode == 0, done.stderr
+    for held, arguments in asked.items():
+        found = np.load(tmp_path / f"solver.{held}.npy")
+        assert np.isnan(found[6:10]).all()
+        gap, control, *solids = (np.delete(argument, slice(6, 10)) for argument in arguments)
+        pair = pl.Pair((solids[0], solids[1]), (solids[2], solids[3]))
+        exact = pl.bridge(pair, gap, **{held: control}, liquid=pl.Liquid(surface_tension=GAMMA))
+        np.testing.assert_allclose(np.delete(found, slice(6, 10)), exact.force, rtol=1e-9)
+        assert 0 < np.count_nonzero(exact.force) < exact.force.size
+
+
+@pytest.mark.needs("cuda")
+def test_a_device_gives_what_the_processor_does(folder):
+    done = run("simulate", folder)
+    if "CUDA_ERROR" in done.stderr or "CudaSupportError" in done.stderr:
+        pytest.skip("no GPU is here")
+    assert done.returncode == 0, done.stderr
+
+
 @pytest.mark.needs("cuda")
 def test_the_kernels_compile_for_a_gpu(folder):
     done = run("compile", folder, NUMBA_FORCE_CUDA_CC="8.0")
     if "is not installed" in done.stderr:
         pytest.skip(done.stderr.strip())
     assert done.returncode == 0, done.stderr
-    for name in (*NAMES, "own_kernel"):
+    for name in (*NAMES, "own_kernel", "solver"):
         text = (folder / f"{name}.ptx").read_text()
         assert ".target sm_80" in text
         assert text.count(".entry") == 1

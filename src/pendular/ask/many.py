@@ -26,7 +26,7 @@ Floats = NDArray[np.float64]
 Statuses = NDArray[np.int8]
 
 _CHUNK = 4096  # bridges that one thread takes at a time: some milliseconds
-_BAD = 3  # status of a row that is no question
+BAD = 3  # status of a row that is no question
 
 
 @entry(plain_cost=5e-4, patience=4.0)
@@ -63,7 +63,7 @@ def fields_range(
         if other != known2:
             known2, cosine2, sine2 = other, math.cos(other), math.sin(other)
         if not is_in_domain(control, gap, held, first, second, tension):
-            statuses[i] = _BAD
+            statuses[i] = BAD
             continue
         unit = length_unit(control, held, first, second)
         solids = batch.Solid(unit / first, one, cosine1, sine1), batch.Solid(unit / second, other, cosine2, sine2)
@@ -130,9 +130,9 @@ def many_bridges(
     tension = float(liquid.surface_tension)
     asking = (wanted, held, *operands, tension, start, room, statuses, Own(partial(np.empty, len(State._fields))))
     over_rows(fields_range, rows, _CHUNK, *asking, plainly=partial(_plainly, room, statuses))
-    if rows and statuses.max() == _BAD:
+    if rows and statuses.max() == BAD:
         reduce(pair, control, liquid, separation)  # which says what is wrong
-    left = np.flatnonzero((statuses == OPEN) | (statuses == _BAD))
+    left = np.flatnonzero((statuses == OPEN) | (statuses == BAD))
     if left.size:
         _fill_rest(operands, control, liquid, held, limit, left, room, statuses)
     warn_of_failures(statuses)

@@ -35,7 +35,7 @@ if not config.ENABLE_CUDASIM:  # type: ignore[attr-defined]
 
 Operand = ArrayLike | Any  # numbers, or any array on the device
 
-_THREADS = 128  # in a block
+THREADS = 128  # in a block
 
 
 @kernel
@@ -172,30 +172,15 @@ class DeviceTable:
         return self._ask(_rupture_distance, out, 0.0, control, radius1, radius2, surface_tension)
 
     def _ask(self, scalar: Callable[..., float], out: Any, *arguments: Operand) -> Any:
-        units = operands_of(self.control)
-        read = [_read(name, value, units[name]) for name, value in zip(units, arguments, strict=True)]
-        shape = np.broadcast_shapes(*(operand.shape for operand in read))
-        operands = [_flat(name, operand, shape) for name, operand in zip(units, read, strict=True)]
-        if _is_on_device(out):
-            result = _on_device("out", out)
-            if result.shape != shape:
-                raise ValueError(f"out: is not of shape {shape}")
-        else:
-            out = None if out is None else result_array(out, shape)
-            result = cuda.device_array(math.prod(shape))
+        shape, operands = operands_on_device(operands_of(self.control), arguments)
+        result = result_on_device(out, shape)
         if result.size > 0:
-            blocks = -(-result.size // _THREADS)
-            loop_of(scalar)[blocks, _THREADS](self.grid, *operands, result.reshape(result.size))
-        if out is None and any(_is_on_device(operand) for operand in arguments):
-            return result.reshape(shape or 1)
-        if out is None:
-            return result.copy_to_host().reshape(shape)[()]
-        if not _is_on_device(out):
-            result.copy_to_host(out.reshape(-1))
-        return out
+            blocks = -(-result.size // THREADS)
+            loop_of(scalar)[blocks, THREADS](self.grid, *operands, result.reshape(result.size))
+        return returned(result, out, shape, any(map(is_on_device, arguments)))
 
 
-def _is_on_device(value: object) -> bool:
+def is_on_device(value: object) -> bool:
     """Whether an object is an array on the device; the simulator's have the first attribute only."""
     return hasattr(value, "__cuda_ndarray__") or hasattr(value, "__cuda_array_interface__")
 
@@ -210,17 +195,47 @@ def _on_device(name: str, value: Any) -> Any:
 
 def _read(name: str, value: Operand, unit: str) -> Any:
     """An operand as an array, where it lies."""
-    return _on_device(name, value) if _is_on_device(value) else numbers(name, value, unit)
+    return _on_device(name, value) if is_on_device(value) else numbers(name, value, unit)
 
 
 def _flat(name: str, operand: Any, shape: tuple[int, ...]) -> Any:
     """An operand on the device, in one row of one element or of as many as there are contacts."""
-    if not _is_on_device(operand):
+    if not is_on_device(operand):
         whole = operand if operand.size == 1 else np.broadcast_to(operand, shape)
         return cuda.to_device(np.ascontiguousarray(whole).reshape(-1))
     if operand.size != 1 and operand.shape != shape:
         raise ValueError(f"{name}: an array on the device of shape {operand.shape} is not repeated to {shape}")
     return operand.reshape(operand.size)
+
+
+def operands_on_device(units: dict[str, str], arguments: tuple[Operand, ...]) -> tuple[tuple[int, ...], list[Any]]:
+    """Shape of the answer, and what is named with its units in rows on the device."""
+    read = [_read(name, value, units[name]) for name, value in zip(units, arguments, strict=True)]
+    shape = np.broadcast_shapes(*(operand.shape for operand in read))
+    return shape, [_flat(name, operand, shape) for name, operand in zip(units, read, strict=True)]
+
+
+def result_on_device(out: Any, shape: tuple[int, ...]) -> Any:
+    """Room for an answer on the device: what is given for it, if that lies there."""
+    if is_on_device(out):
+        result = _on_device("out", out)
+        if result.shape != shape:
+            raise ValueError(f"out: is not of shape {shape}")
+        return result
+    if out is not None:
+        result_array(out, shape)
+    return cuda.device_array(math.prod(shape))
+
+
+def returned(result: Any, out: Any, shape: tuple[int, ...], stays: bool) -> Any:
+    """An answer where it is wanted."""
+    if out is None and stays:
+        return result.reshape(shape or 1)
+    if out is None:
+        return result.copy_to_host().reshape(shape)[()]
+    if not is_on_device(out):
+        result.copy_to_host(out.reshape(-1))
+    return out
 
 
 def to_device(table: Table) -> DeviceTable:
