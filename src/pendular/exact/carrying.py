@@ -169,8 +169,8 @@ def _hides(line: Line, angle: float, rate: float, end: float, end_rate: float, s
     if line.mode != PINNED:
         return False
     low, high = line.receding.contact_angle, line.advancing.contact_angle
-    if (high - angle < _AT_LIMIT and rate < 0.0 and end > high + _REACHED) or (
-        angle - low < _AT_LIMIT and rate > 0.0 and end < low - _REACHED
+    if (high - angle < _AT_LIMIT and rate < _AT_REST and end > high + _REACHED) or (
+        angle - low < _AT_LIMIT and rate > -_AT_REST and end < low - _REACHED
     ):
         return True
     if rate * end_rate >= 0.0:
