@@ -95,6 +95,32 @@ SUBJECTS: dict[str, tuple[Bound, ...]] = {
             "test_sensitivities.py::test_rates_have_the_thirty_digits_behind_them",
         ),
     ),
+    "Paths with contact lines that stick and slide": (
+        Bound(
+            "rings, angles, separation, volume and suction of every step",
+            "1e-9",
+            "66 random paths, integrated from ring to ring by the Young-Laplace equation",
+            "test_path.py::test_every_bridge_obeys_the_equation_between_its_rings",
+        ),
+        Bound(
+            "the path",
+            "1e-8",
+            "the same paths in 24 small steps each, but for lines that turn within one: nine of ten",
+            "test_path.py::test_a_path_is_that_of_many_small_steps",
+        ),
+        Bound(
+            "without hysteresis, force, volume and radii of the free bridge",
+            "1e-10",
+            "three pairs up to rupture, at a volume and under suction",
+            "test_path.py::test_without_hysteresis_it_is_the_curve",
+        ),
+        Bound(
+            "angles within the receding and the advancing one, [rad]",
+            "1e-12",
+            "thousands of random paths; seeds are printed",
+            "test_path.py::test_thousands_of_paths_keep_the_rules",
+        ),
+    ),
     "What every bridge obeys": (
         Bound(
             "force is the slope of energy at a volume, and of the grand potential under suction",
