@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -76,12 +77,23 @@ def path_figure(bridges: BridgePath, *, title: str = "", subtitle: str = "") -> 
     lower.set_ylabel(f"contact radius ({radius.unit})", color=FAINT)
     upper.tick_params(labelbottom=False)
     if places.min() > 0.0 and places.max() > _DECADES * places.min():
-        large.set_xscale("log")
-        upper.set_xscale("log")
+        for axes in (large, upper, lower):
+            _make_logarithmic(axes)
+        upper.tick_params(labelbottom=False)
     if not all(np.allclose(values[:, 0], values[:, 1], rtol=_ALIKE) for values in (angles, radii)):
         upper.set_title("first solid ——   second – –", size=9, color=FAINT, loc="right")
     _tell(large, doings, None if bridges.rupture is None else (places[-1], forces[-1]))
     return drawing
+
+
+def _make_logarithmic(axes: Axes) -> None:
+    """Decades on the axis, with 1, 2 and 5 of each written as they are."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+    axes.set_xscale("log")
+    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _place: f"{value:g}"))
+    axes.xaxis.set_minor_formatter(NullFormatter())
 
 
 def _along(bridges: BridgePath) -> str:
@@ -114,10 +126,12 @@ def _draw(axes: Axes, x: Floats, y: Floats, doings: list[tuple[str, ...]], is_lo
     axes.spines[["top", "right"]].set_visible(False)
     axes.spines[["left", "bottom"]].set(color=HAIR, lw=0.8)
     axes.tick_params(labelcolor=FAINT, labelsize=9, width=0.8, length=3, color=HAIR)
-    for i in range(1, len(x)):
-        style = "-" if solid == 0 else (0, (4, 2))
-        colour = _COLOURS[_doing(doings[i])]
-        axes.plot(x[i - 1 : i + 1], y[i - 1 : i + 1], ls=style, color=colour, lw=2.0, solid_capstyle="round")
+    first, style = 0, "-" if solid == 0 else (0, (4, 2))
+    for word, steps in groupby(_doing(both) for both in doings[1:]):
+        last = first + len(list(steps))
+        here = slice(first, last + 1)
+        axes.plot(x[here], y[here], ls=style, color=_COLOURS[word], lw=2.0, solid_capstyle="round")
+        first = last
     if is_loop and len(x) > 1:
         _draw_arrows(axes, x, y, doings)
 
