@@ -217,7 +217,7 @@ def make(first, second, radius, suction, slope=None, *, longest=6.0, number=0):
     start = [0.0, radius, -outward]
     events = (meets, closes, winds)
     found = run(path, longest * radius, start, rtol=1e-8, events=events, max_step=0.01 * longest * radius).t_events[0]
-    ends = [s for s in found if s > 1e-3 * radius]
+    ends = [s for s in found if s > 1e-4 * longest * radius]
     if len(ends) <= number:
         return None
     a, b = ends[number], ends[number] * (1.0 + 1e-6)

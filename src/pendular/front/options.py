@@ -1,6 +1,7 @@
 """The options that all commands share, read into what they ask: a pair, a liquid, and what is held constant."""
 
 import math
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
@@ -117,9 +118,12 @@ class Question(NamedTuple):
 
     def lower_end(self) -> "Bridge | None":
         """Where the stable bridges begin, if that is not at contact."""
-        from ..ask.face import rupture
+        from ..ask.face import ConvergenceWarning, rupture
 
-        end = self.put_to(rupture, end="lower")
+        with warnings.catch_warnings():
+            if self.pair.shape is not None:  # a branch that runs on to where it is not answered is drawn as far
+                warnings.simplefilter("ignore", ConvergenceWarning)
+            end = self.put_to(rupture, end="lower")
         return end if end.exists else None
 
     def later_fold(self, end: "Bridge") -> "Bridge | None":
