@@ -197,7 +197,7 @@ function rangeWords(low, high, brief) {
 }
 
 /** A number as short as it can be written: 0.01, 100, 1e4, 13.75. */
-export function shortest(value) {
+function shortest(value) {
   if (value === 0 || !Number.isFinite(value) || (Math.abs(value) >= 1e-3 && Math.abs(value) < 1e4)) return signed(String(rounded(value, 4)));
   return signed(rounded(value, 4).toExponential().replace("e+", "e"));
 }

@@ -7,12 +7,12 @@ const MARGIN = { left: 62, right: 10, top: 14, bottom: 46 };
 const ROOM = 0.36; // right of the rupture point for its label, over the rupture distance
 const OUTER = 0.04; // of the states at either end are left out of the range of what grows without bound at rupture
 const DASHES = ["", "2 3", "7 3 2 3", "9 4"];
-export const LAW_COLOURS = 6; // in the style sheet
+const LAW_COLOURS = 6; // in the style sheet
 
 /** Names of the fields that can be drawn, as a state of the solver has them. */
 export const fieldOf = (name) => name.replaceAll(/_(\w)/g, (_, letter) => letter.toUpperCase());
 
-export const unitOf = (name) => RECORDS.fields.find((field) => field.name === name).unit;
+const unitOf = (name) => RECORDS.fields.find((field) => field.name === name).unit;
 
 /** Class and dashes of the line of a law, by its place among all; told apart without colours as well. */
 export function lawLine(place) {
@@ -87,7 +87,7 @@ function pathOf(points) {
 }
 
 /** Round numbers between two ends, about so many. */
-export function ticksBetween(low, high, count) {
+function ticksBetween(low, high, count) {
   const wanted = (high - low) / count;
   const decade = 10 ** Math.floor(Math.log10(wanted));
   const step = decade * [1, 2, 5, 10].find((one) => one * decade >= wanted);

@@ -102,15 +102,15 @@ function lawRow(law, place) {
 // -- What a person does ----------------------------------------------------------------------------------------------
 
 function listen() {
-  at("is-plane").addEventListener("change", (event) => choose("radius2", { radius2: event.target.checked ? "plane" : firstRadius() }));
+  at("is-plane").addEventListener("change", (event) => change("radius2", { radius2: event.target.checked ? "plane" : firstRadius() }));
   at("is-same").addEventListener("change", (event) =>
-    choose("contact-angle2", { "contact-angle2": event.target.checked ? "" : answer.view["contact-angle"] }),
+    change("contact-angle2", { "contact-angle2": event.target.checked ? "" : answer.view["contact-angle"] }),
   );
-  at("plot").addEventListener("change", (event) => choose("value", { plot: event.target.value }));
-  at("map-choice").addEventListener("change", (event) => choose("value", { map: event.target.value }));
-  at("across").addEventListener("change", (event) => choose("value", { across: event.target.value }));
+  at("plot").addEventListener("change", (event) => change("value", { plot: event.target.value }));
+  at("map-choice").addEventListener("change", (event) => change("value", { map: event.target.value }));
+  at("across").addEventListener("change", (event) => change("value", { across: event.target.value }));
   at("laws").addEventListener("change", () =>
-    choose("value", { laws: [...at("laws").querySelectorAll("input:checked")].map(({ value }) => value) }),
+    change("value", { laws: [...at("laws").querySelectorAll("input:checked")].map(({ value }) => value) }),
   );
   letPull(at("picture"));
   letSeek(at("chart"));
@@ -151,10 +151,8 @@ function hold(control) {
 
 function giveLiquid(source) {
   const tension = written("surface-tension", answer.question.liquid.surfaceTension, 4);
-  choose("surface-tension", { "surface-tension": source === GIVEN ? tension : "" });
+  change("surface-tension", { "surface-tension": source === GIVEN ? tension : "" });
 }
-
-const choose = (field, changes) => change(field, changes);
 
 /** A grain is pulled along the axis: that under the hand stays there. */
 function letPull(svg) {

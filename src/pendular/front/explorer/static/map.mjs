@@ -35,7 +35,7 @@ export function mapSides({ question, view, rupture }) {
 }
 
 /** Share of the width at which a value lies, in SI units. */
-export function shareOf({ low, high, unit, isLogarithmic }, value) {
+function shareOf({ low, high, unit, isLogarithmic }, value) {
   const star = value / unit;
   return isLogarithmic ? Math.log(star / low) / Math.log(high / low) : (star - low) / (high - low);
 }
