@@ -96,6 +96,36 @@ def test_neighbours_are_all_that_are_near():
         assert len(found) == len(expected) > 100
 
 
+def test_neighbours_over_the_faces_of_a_cell_are_all_that_are_near():
+    """Against all images of all pairs, in a skew cell, of places that have left it."""
+    print(f"seed {SEED}")
+    random = np.random.default_rng(SEED)
+    for spread in (0.0, 1.5):
+        radii = 1e-5 * np.exp(spread * random.random(150))
+        cell = (np.eye(3) + random.uniform(-0.3, 0.3, (3, 3))) * 12.0 * np.max(radii)
+        places = random.uniform(-2.0, 3.0, (150, 3)) @ cell.T
+        far = 0.3 * np.median(radii)
+        one, other, shift = pendular_yade._near_in_cell(places, radii, far, cell)
+        found = np.linalg.norm(places[other] + shift @ cell.T - places[one], axis=1) - radii[one] - radii[other]
+        apart = np.linalg.norm(shortest(places[None] - places[:, None], cell), axis=-1) - radii[:, None] - radii
+        expected = {(i, j) for i, j in np.argwhere(apart < far) if i < j}
+        pairs = np.sort(np.column_stack([one, other]), axis=1)
+        assert {tuple(pair) for pair in pairs.tolist()} == expected
+        assert len(pairs) == len(expected) > 30
+        np.testing.assert_allclose(found, apart[one, other], rtol=1e-9, atol=1e-9 * far)
+    with pytest.raises(ValueError, match=r"^cell: its width .* is less than twice .*, how far bridges reach$"):
+        pendular_yade._near_in_cell(places, radii, far, 0.3 * cell)
+
+
+def shortest(vectors, cell):
+    """The shortest of all periodic images of vectors."""
+    images = vectors - np.floor(vectors @ np.linalg.inv(cell).T) @ cell.T
+    steps = (np.stack(np.meshgrid(*[np.arange(-2, 3)] * 3), -1).reshape(-1, 3)) @ cell.T
+    images = images[..., None, :] + steps
+    nearest = np.linalg.norm(images, axis=-1).argmin(axis=-1)
+    return np.take_along_axis(images, nearest[..., None, None], axis=-2)[..., 0, :]
+
+
 @needs_c
 def test_what_cannot_be_is_refused_in_one_line(folder, monkeypatch):
     monkeypatch.setattr(pendular_yade, "_HERE", folder / "engine")
@@ -183,12 +213,75 @@ def test_what_is_held_may_change_from_step_to_step(folder):
 
 
 @in_yade
+@pytest.mark.parametrize("is_periodic", [True, False])
+@pytest.mark.parametrize("control", ["suction", "volume"])
+def test_grains_on_their_ways_have_bridges_over_faces_and_beside_clumps(folder, is_periodic, control):
+    """Every step against all images of all pairs: a sheared cell, clumps, grains that come and grains that go."""
+    seed = int(np.random.SeedSequence().generate_state(1)[0])
+    print("seed", seed)
+    random, table = np.random.default_rng(seed), tables()[control]
+    count, radius, held = 50, 50e-6, {"suction": 20e3, "volume": 2e-16}[control]
+    radii = random.uniform(0.7, 1.0, count) * radius
+    cell = (np.eye(3) + random.uniform(-0.1, 0.1, (3, 3))) * 7.0 * radius
+    clumps = [[0, 1, 2], [3, 4]]
+    given = {
+        "cell": cell.tolist() if is_periodic else None,
+        "rate": (4e3 * random.uniform(-1.0, 1.0, (3, 3))).tolist(),
+        "places": (random.uniform(0.0, 1.0, (count, 3)) @ cell.T).tolist(),
+        "radii": radii.tolist(),
+        "velocities": random.normal(0.0, 2.0, (count, 3)).tolist(),
+        "clumps": clumps,
+        "engine": {"table": f"{control}.bridges", control: held, "surface_tension": TENSION, "skin": 2e-6},
+        "step": 1e-6,
+        "steps": 16,
+        "erased": {"5": 40},
+        "added_at": 10,
+        "added": (0.5 * cell.sum(axis=1)).tolist(),
+    }
+    (folder / "moving.json").write_text(json.dumps(given))
+    said = simulated(folder, SCRIPT.with_name("moving.py"))
+    assert (folder / "moved.json").is_file(), said
+    steps = json.loads((folder / "moved.json").read_text())
+    (folder / "moved.json").unlink()
+    assert len(steps) == 16
+    clump_of = {member: n for n, members in enumerate(clumps) for member in members}
+    radius_of = dict(enumerate(radii.tolist()))
+    bridged, seen = set(), 0
+    for step in steps:
+        ids, places = np.array(step["ids"]), np.array(step["places"])
+        own = np.array([radius_of.get(number, radii[0]) for number in step["ids"]])
+        way = places[None] - places[:, None]
+        way = shortest(way, np.array(step["cell"])) if is_periodic else way
+        distance = np.linalg.norm(way, axis=-1)
+        forces, now = np.zeros_like(places), set()
+        for i, j in zip(*np.triu_indices(len(ids), 1), strict=True):
+            pair = (int(ids[i]), int(ids[j]))
+            gap = distance[i, j] - own[i] - own[j]
+            is_one_clump = pair[0] in clump_of and clump_of[pair[0]] == clump_of.get(pair[1])
+            if is_one_clump or (gap > 0.0 and pair not in bridged):
+                continue
+            force = float(table.force(gap, held, own[i], own[j], TENSION))
+            if force > 0.0:
+                now.add(pair)
+                forces[i] += force * way[i, j] / distance[i, j]
+                forces[j] -= force * way[i, j] / distance[i, j]
+        assert {tuple(sorted(map(int, row[:2]))) for row in step["bridges"]} == now
+        np.testing.assert_allclose(step["forces"], forces, rtol=0.0, atol=1e-8 * np.abs(forces).max())
+        seen += len(bridged ^ now)
+        bridged = now
+    assert seen > 20
+    assert len(bridged) > 20
+
+
+@in_yade
 @pytest.mark.parametrize(
     ("change", "reason"),
     [
         ({"suction": 1e9}, "suction: 1e+09 with radii 5e-06 and 5e-06 and surface tension 0.0728 is out of the range"),
-        ({"scene": "periodic"}, "cell: bridges over the faces of a periodic cell are not there"),
-        ({"scene": "clump"}, "bodies: clumps have no bridges"),
+        (
+            {"scene": "periodic", "pairs": [(5e-6, 5e-6), (5e-6, None)]},
+            "bodies: walls have no place in a periodic cell",
+        ),
     ],
 )
 def test_what_has_no_bridge_ends_the_run_with_one_line(folder, change, reason):

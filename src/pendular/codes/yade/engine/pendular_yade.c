@@ -14,9 +14,9 @@ void pendular_yade_about(const pendular_table *table, double *numbers);
 double pendular_yade_value(const pendular_table *table, int asked, double separation, double control, double radius1,
     double radius2, double surface_tension);
 int pendular_yade_step(const pendular_table *grains, const pendular_table *walls, double control,
-    double surface_tension, int forms_apart, size_t pairs, const int32_t *first, const int32_t *second,
-    unsigned char *has_bridge, size_t bodies, const double *places, const double *radius, const signed char *axis,
-    double *forces, double *separation, double *attraction, size_t *place);
+    double surface_tension, int forms_apart, int is_periodic, size_t pairs, const int32_t *first, const int32_t *second,
+    const double *beside, unsigned char *has_bridge, size_t bodies, const double *places, const double *radius,
+    const signed char *axis, double *forces, double *separation, double *attraction, size_t *place);
 
 size_t pendular_yade_size(void)
 {
@@ -53,14 +53,17 @@ double pendular_yade_value(const pendular_table *table, int asked, double separa
     return pendular_table_value(table, asked, separation, control, radius1, radius2, surface_tension);
 }
 
-/* Separation of a pair, and the unit vector from the first to the second; a wall is a plane across its axis. */
+/* Separation of a pair, and the unit vector from the first to the second; a wall is a plane across its axis. In a periodic
+   cell the second is moved by `beside`, else that is NULL. */
 static double apart(size_t bodies, const double *places, const double *radius, const signed char *axis, int32_t i,
-    int32_t j, double *towards)
+    int32_t j, const double *beside, double *towards)
 {
     double length, sum = 0.0;
     int k;
     for (k = 0; k < 3; ++k) {
         towards[k] = axis[j] < 0 || axis[j] == k ? places[k * bodies + j] - places[k * bodies + i] : 0.0;
+        if (beside)
+            towards[k] += beside[k];
         sum += towards[k] * towards[k];
     }
     length = sqrt(sum);
@@ -72,9 +75,9 @@ static double apart(size_t bodies, const double *places, const double *radius, c
 /* Add the forces of all bridges; a pair that touches gets one, and one that broke has none. `place` is the pair that is
    out of range. */
 int pendular_yade_step(const pendular_table *grains, const pendular_table *walls, double control,
-    double surface_tension, int forms_apart, size_t pairs, const int32_t *first, const int32_t *second,
-    unsigned char *has_bridge, size_t bodies, const double *places, const double *radius, const signed char *axis,
-    double *forces, double *separation, double *attraction, size_t *place)
+    double surface_tension, int forms_apart, int is_periodic, size_t pairs, const int32_t *first, const int32_t *second,
+    const double *beside, unsigned char *has_bridge, size_t bodies, const double *places, const double *radius,
+    const signed char *axis, double *forces, double *separation, double *attraction, size_t *place)
 {
     size_t n;
     int k;
@@ -82,7 +85,7 @@ int pendular_yade_step(const pendular_table *grains, const pendular_table *walls
         const int32_t i = first[n], j = second[n];
         const pendular_table *table = axis[j] < 0 ? grains : walls;
         double towards[3], pull;
-        const double gap = apart(bodies, places, radius, axis, i, j, towards);
+        const double gap = apart(bodies, places, radius, axis, i, j, is_periodic ? beside + 3 * n : NULL, towards);
         separation[n] = gap;
         attraction[n] = 0.0;
         if (!has_bridge[n] && gap > 0.0 && !forms_apart)

@@ -1,4 +1,4 @@
-"""Exact capillary bridges in YADE: any sizes of grains, flat walls, constant suction or constant volume.
+"""Exact capillary bridges in YADE: any sizes of grains, clumps, flat walls, periodic cells, both controls.
 
     pendular export table --contact-angle 20 --out w.bridges
     pendular export yade-engine --out engine
@@ -66,7 +66,10 @@ class Bridges:
             raise ValueError(f"surface_tension: {surface_tension!r} is not positive")
         self.surface_tension = surface_tension
         self._name, self._forms_apart, self._skin = name, distant, skin
-        self._bodies = -1
+        self._bodies = None
+        self._ids = np.empty(0, int)
+        self._first = self._second = np.empty(0, np.int32)
+        self._has_bridge = np.empty(0, np.uint8)
 
     # What is asked ---------------------------------------------------------------------------------------------------
 
@@ -89,22 +92,24 @@ class Bridges:
         from yade import O
         from yade._utils import coordsAndDisplacements
 
-        if len(O.bodies) != self._bodies:
-            self._take_bodies(O)
         lists = (coordsAndDisplacements(axis)[0] for axis in range(3))
         places = np.array(
             [np.frombuffer(array("d", each)) for each in lists]
         )  # in half the time of the lists themselves
-        if self._is_stale(places):
-            self._seek(places)
+        if (len(O.bodies), places.shape[1]) != self._bodies:
+            self._take_bodies(O)
+        cell = np.array([[O.cell.hSize[i][k] for k in range(3)] for i in range(3)]) if O.periodic else None
+        if self._is_stale(places, cell):
+            self._seek(places, cell)
+        beside = np.zeros((0, 3)) if cell is None else np.ascontiguousarray(self._shift @ cell.T)
         forces, place = np.zeros_like(places), ctypes.c_size_t()
-        arrays = (self._first, self._second, self._has_bridge), (places, self._radius, self._axis, forces)
+        arrays = (self._first, self._second, beside, self._has_bridge), (places, self._radius, self._axis, forces)
         pairs, bodies = ([ctypes.c_void_p(each.ctypes.data) for each in group] for group in arrays)
         out = [ctypes.c_void_p(each.ctypes.data) for each in (self._separation, self._attraction)]
         status = self._c.pendular_yade_step(
             self._grains, self._walls, ctypes.c_double(self.held), ctypes.c_double(self.surface_tension),
-            int(self._forms_apart), ctypes.c_size_t(self._first.size), *pairs, ctypes.c_size_t(self._radius.size),
-            *bodies, *out, ctypes.byref(place),
+            int(self._forms_apart), int(cell is not None), ctypes.c_size_t(self._first.size), *pairs,
+            ctypes.c_size_t(self._radius.size), *bodies, *out, ctypes.byref(place),
         )  # fmt: skip
         if status:
             raise ValueError(self._out_of_range(place.value))
@@ -117,42 +122,57 @@ class Bridges:
 
     def _take_bodies(self, omega):
         """Ids, radii and walls of the simulation."""
-        if omega.periodic:
-            raise ValueError("cell: bridges over the faces of a periodic cell are not there")
         bodies = list(omega.bodies)
-        if any(body.isClump or body.isClumpMember for body in bodies):
-            raise ValueError("bodies: clumps have no bridges")
-        self._bodies = len(bodies)
+        bridged = self._ids[np.stack([self._first, self._second])[:, self._has_bridge > 0]]
+        self._bodies = len(omega.bodies), len(bodies)
         ids = np.array([body.id for body in bodies])
         kinds = [body.shape.__class__.__name__ for body in bodies]
         radius = [body.shape.radius if kind == "Sphere" else np.nan for body, kind in zip(bodies, kinds, strict=True)]
         axis = [body.shape.axis if kind == "Wall" else -1 for body, kind in zip(bodies, kinds, strict=True)]
         self._ids, self._radius, self._axis = ids, np.array(radius), np.array(axis, np.int8)
+        self._clump = np.array([body.clumpId if body.isClumpMember else -1 for body in bodies])
         self._spheres, self._planes = np.flatnonzero(self._radius > 0.0), np.flatnonzero(self._axis >= 0)
+        if omega.periodic and self._planes.size:
+            raise ValueError("bodies: walls have no place in a periodic cell")
         self._sought = None
-        nothing = np.empty(0, np.int32)
-        self._first, self._second, self._has_bridge = nothing, nothing, np.empty(0, np.uint8)
+        bridged = bridged[:, np.isin(bridged, ids).all(axis=0)]  # bridges of bodies that are still there
+        self._first, self._second = (np.searchsorted(ids, column).astype(np.int32) for column in bridged)
+        self._has_bridge = np.ones(self._first.size, np.uint8)
 
-    def _is_stale(self, places):
+    def _is_stale(self, places, cell):
         """Whether grains may have come near that are no neighbours yet."""
         if self._sought is None or self._sought_for != (self.held, self.surface_tension):
             return True
-        moved = places - self._sought
-        return 2.0 * np.sqrt((moved * moved).sum(axis=0).max(initial=0.0)) > self._near
+        if (cell is None) != (self._sought_cell is None):
+            return True
+        strain = np.zeros((3, 3)) if cell is None else cell @ np.linalg.inv(self._sought_cell) - np.eye(3)
+        moved = places - self._sought - strain @ self._sought
+        farthest = 2.0 * np.sqrt((moved * moved).sum(axis=0).max(initial=0.0))
+        return farthest + np.linalg.norm(strain) * self._longest > self._near
 
-    def _seek(self, places):
+    def _seek(self, places, cell):
         """Pairs of neighbours, with the bridges that they have."""
         radii = self._radius[self._spheres]
         self._near = 0.1 * radii.min(initial=np.inf) if self._skin is None else self._skin
-        self._sought, self._sought_for = places, (self.held, self.surface_tension)
+        self._sought, self._sought_cell, self._sought_for = places, cell, (self.held, self.surface_tension)
         far = self._near + self._reach(radii)
-        pairs = [*_near_spheres(self._spheres, places[:, self._spheres].T, radii, far)]
+        self._longest = far + 2.0 * radii.max(initial=0.0)  # between centres
+        if cell is None:
+            pairs = [*_near_spheres(self._spheres, places[:, self._spheres].T, radii, far)]
+        else:
+            one, other, self._shift = _near_in_cell(places[:, self._spheres].T, radii, far, cell)
+            pairs = [np.column_stack([self._spheres[one], self._spheres[other]])]
         for wall in self._planes:
             axis = self._axis[wall]
             away = np.abs(places[axis, self._spheres] - places[axis, wall]) - radii
             near = self._spheres[away < far]
             pairs.append(np.column_stack([near, np.full_like(near, wall)]))
         both = np.concatenate(pairs) if pairs else np.empty((0, 2), int)
+        clumps = self._clump[both]
+        is_free = (clumps[:, 0] < 0) | (clumps[:, 0] != clumps[:, 1])  # grains of one clump have none with each other
+        both = both[is_free]
+        if cell is not None:
+            self._shift = self._shift[is_free]
         kept = self._keys(self._first, self._second)[self._has_bridge > 0]
         keys = self._keys(*both.T)
         self._first, self._second = (np.ascontiguousarray(column, np.int32) for column in both.T)
@@ -160,7 +180,9 @@ class Bridges:
         self._separation, self._attraction = np.empty(keys.size), np.empty(keys.size)
 
     def _keys(self, first, second):
-        return np.asarray(first, np.int64) * self._radius.size + np.asarray(second, np.int64)
+        """A number for each pair, whichever of the two is first."""
+        low, high = np.minimum(first, second).astype(np.int64), np.maximum(first, second).astype(np.int64)
+        return low * self._radius.size + high
 
     def _reach(self, radii):
         """Largest rupture distance of all pairs of sizes; those that the table does not know are refused in touch."""
@@ -225,6 +247,35 @@ def _near_spheres(numbers, places, radii, far):
                 gap = np.sqrt(((places[i] - places[j]) ** 2).sum(axis=1)) - radii[i] - radii[j]
                 is_pair = (gap < far) & ((i < j) if other is group else True)
                 yield np.column_stack([numbers[i[is_pair]], numbers[j[is_pair]]])
+
+
+def _near_in_cell(places, radii, far, cell):
+    """The same in a periodic cell: numbers of two spheres, and by how many edges the second is to be moved."""
+    inverse = np.linalg.inv(cell)
+    widths = 1.0 / np.linalg.norm(inverse, axis=1)
+    within = far + 2.0 * radii.max(initial=0.0)
+    if np.any(widths < 2.0 * within):
+        raise ValueError(f"cell: its width {widths.min():g} is less than twice {within:g}, how far bridges reach")
+    turns = np.floor(places @ inverse.T)
+    fractions = places @ inverse.T - turns
+    number, shift = [np.arange(radii.size)], [np.zeros((radii.size, 3))]
+    for step in np.ndindex(3, 3, 3):
+        if step == (1, 1, 1):
+            continue
+        image = fractions + step - 1.0
+        near = np.flatnonzero(((image > -within / widths) & (image < 1.0 + within / widths)).all(axis=1))
+        number.append(near)
+        shift.append(np.tile(np.subtract(step, 1.0), (near.size, 1)))
+    number, shift = np.concatenate(number), np.concatenate(shift)
+    points = (fractions[number] + shift) @ cell.T
+    found = [*_near_spheres(np.arange(number.size), points, radii[number], far)]
+    pairs = np.concatenate(found) if found else np.empty((0, 2), int)
+    pairs = np.where(pairs[:, :1] <= pairs[:, 1:], pairs, pairs[:, ::-1])  # a sphere itself before images
+    one, other = number[pairs].T
+    is_image = pairs[:, 1] >= radii.size
+    chosen = (pairs[:, 0] < radii.size) & (~is_image | (one < other))
+    one, other, apart = one[chosen], other[chosen], shift[pairs[chosen, 1]]
+    return one, other, apart - turns[other] + turns[one]
 
 
 def _in_cells(places, others, size):
