@@ -62,12 +62,15 @@ function solver(module) {
     numbers[pairAt + 4] = liquid.surfaceTension;
     const status = ask(control, held, BYTES * pairAt, BYTES * stateAt);
     if (status === FAILED) throw new Error("the solver did not find, or exclude, the bridge");
-    if (status !== FOUND && status !== NO_BRIDGE) throw new RangeError("pair, separation, suction or volume: out of range");
+    if (status !== FOUND && status !== NO_BRIDGE)
+      throw new RangeError("pair, separation, suction or volume: out of range");
     return status;
   }
 
-  const stateIn = (at, pair, liquid) =>
-    stateOf(numbers.subarray(at, at + FIELDS.length), both("contactAngle", pair.contactAngle ?? 0), liquid.surfaceTension);
+  function stateIn(at, pair, liquid) {
+    const angles = both("contactAngle", pair.contactAngle ?? 0);
+    return stateOf(numbers.subarray(at, at + FIELDS.length), angles, liquid.surfaceTension);
+  }
 
   const asked = (pair, liquid, ask) => (statusOf(pair, liquid, ask) === FOUND ? stateIn(stateAt, pair, liquid) : null);
 
@@ -158,6 +161,11 @@ function stateOf(row, angles, surfaceTension) {
     unstableDirections: row[AT.unstable_directions],
     sidewaysStable: row[AT.sideways_stable] === 1,
     stable: row[AT.unstable_directions] === 0 && row[AT.sideways_stable] === 1,
-    meridian: { radius: row[AT.middle_radius], slope: row[AT.middle_slope], halfLength: row[AT.half_length], curvature: row[AT.curvature] },
+    meridian: {
+      radius: row[AT.middle_radius],
+      slope: row[AT.middle_slope],
+      halfLength: row[AT.half_length],
+      curvature: row[AT.curvature],
+    },
   };
 }

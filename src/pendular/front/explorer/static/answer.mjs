@@ -111,11 +111,13 @@ function lawAt(law, answer, solver) {
     const force = forceUnit(question) * functions.force(gap, control, ...solids);
     told.forceError = force / state.force - 1;
     reasons.push(outside(law, "force", { separation_star: gap, [`${law.control}_star`]: control }, question));
-    if (Number.isNaN(force)) reasons.push(isOwn ? "it says nothing of this bridge" : `no ${law.control} that it knows holds this bridge`);
+    if (Number.isNaN(force))
+      reasons.push(isOwn ? "it says nothing of this bridge" : `no ${law.control} that it knows holds this bridge`);
   }
   if (functions.rupture && isOwn && covers("rupture")) {
     const control = controlStar(question);
-    if (rupture) told.ruptureError = (functions.rupture(control, ...solids) * question.meanRadius) / rupture.separation - 1;
+    if (rupture)
+      told.ruptureError = (functions.rupture(control, ...solids) * question.meanRadius) / rupture.separation - 1;
     reasons.push(outside(law, "rupture", { [`${law.control}_star`]: control }, question));
   }
   return { ...told, outside: reasons.find(Boolean) ?? "" };
@@ -126,7 +128,8 @@ function lawCurve(law, question, rupture, solver) {
   if (!functions.force || question.arePlanes || uncovered(law, "force", question)) return [];
   const isOwn = ownControl(law, question);
   const solids = solidsOf(question);
-  const last = functions.rupture && isOwn ? functions.rupture(controlStar(question), ...solids) * question.meanRadius : NaN;
+  const last =
+    functions.rupture && isOwn ? functions.rupture(controlStar(question), ...solids) * question.meanRadius : NaN;
   const reach = last > 0 ? last : (rupture?.separation ?? NaN) * (isOwn ? BEYOND : 1);
   if (!Number.isFinite(reach)) return [];
   const count = isOwn ? LAW_POINTS : OTHER_POINTS;
@@ -182,7 +185,8 @@ function outside(law, quantity, asked, { pair }) {
     const [low, high] = law.ranges[name] ?? [-Infinity, Infinity];
     if (value < low - SLACK * Math.abs(low) || value > high + SLACK * Math.abs(high)) {
       const isAngle = name === "contact_angle" || name === "angle_difference";
-      const brief = (number) => (isAngle && Number.isFinite(number) ? shortest((number * 180) / Math.PI) : shortest(number));
+      const brief = (number) =>
+        isAngle && Number.isFinite(number) ? shortest((number * 180) / Math.PI) : shortest(number);
       const unit = isAngle ? "°" : "";
       return `${VARIABLES[name]} = ${brief(value)}${unit}; the law is for ${rangeWords(low, high, brief)}${unit}`;
     }
@@ -198,7 +202,8 @@ function rangeWords(low, high, brief) {
 
 /** A number as short as it can be written: 0.01, 100, 1e4, 13.75. */
 function shortest(value) {
-  if (value === 0 || !Number.isFinite(value) || (Math.abs(value) >= 1e-3 && Math.abs(value) < 1e4)) return signed(String(rounded(value, 4)));
+  if (value === 0 || !Number.isFinite(value) || (Math.abs(value) >= 1e-3 && Math.abs(value) < 1e4))
+    return signed(String(rounded(value, 4)));
   return signed(rounded(value, 4).toExponential().replace("e+", "e"));
 }
 

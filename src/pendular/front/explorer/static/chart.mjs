@@ -53,7 +53,9 @@ export function chartOf(answer, width, height) {
     "</g>",
     name === "force" ? legend(answer, inner.right) : "",
     rupturePoint(rupture, field, across, up, inner.right),
-    lowerEnd && Number.isFinite(lowerEnd[field]) ? circle(across(lowerEnd.separation), up(lowerEnd[field]), 4, "begin") : "",
+    lowerEnd && Number.isFinite(lowerEnd[field])
+      ? circle(across(lowerEnd.separation), up(lowerEnd[field]), 4, "begin")
+      : "",
   ];
   const y = state ? here : name === "force" ? 0 : NaN;
   const now = Number.isFinite(y) ? circle(across(question.separation), up(y), 5.5, "now") : "";
@@ -133,11 +135,15 @@ function rupturePoint(rupture, field, across, up, right) {
   );
 }
 
-const circle = (x, y, radius, name) => `<circle class="${name}" cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="${radius}"/>`;
+const circle = (x, y, radius, name) =>
+  `<circle class="${name}" cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="${radius}"/>`;
 
 function lawPaths(answer, across, up) {
   const pathsOf = ({ curve, place }) => [pathOf(curve.map(([gap, force]) => [across(gap), up(force)])), place];
-  return answer.drawn.map(pathsOf).map(([path, place]) => (path ? `<path ${lawLine(place)} d="${path}"/>` : "")).join("");
+  return answer.drawn
+    .map(pathsOf)
+    .map(([path, place]) => (path ? `<path ${lawLine(place)} d="${path}"/>` : ""))
+    .join("");
 }
 
 function legend(answer, right) {

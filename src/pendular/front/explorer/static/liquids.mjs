@@ -10,7 +10,9 @@ export const liquidNames = () => ["water", ...RECORDS.liquids.map(({ name }) => 
 /** A liquid at a temperature in kelvin. */
 export function liquidNamed(name, kelvin) {
   if (plain(name) === "water") return water(kelvin);
-  const kept = RECORDS.liquids.find((one) => [one.name, one.cas, ...one.otherNames].some((own) => plain(own) === plain(name)));
+  const kept = RECORDS.liquids.find((one) =>
+    [one.name, one.cas, ...one.otherNames].some((own) => plain(own) === plain(name)),
+  );
   if (!kept)
     throw new RangeError(`liquid: '${name}' is not a known liquid; take one of the list, or give its surface tension`);
   const { tension, density } = kept;
@@ -26,8 +28,7 @@ export function liquidNamed(name, kelvin) {
 }
 
 function inRange(name, kelvin, low, high) {
-  if (!(kelvin >= low && kelvin < high))
-    throw new RangeError(`${name}: ${kelvin} K is not in [${low}, ${high}) K`);
+  if (!(kelvin >= low && kelvin < high)) throw new RangeError(`${name}: ${kelvin} K is not in [${low}, ${high}) K`);
 }
 
 // IAPWS R1-76(2014) and SR1-86(1992)
@@ -65,7 +66,9 @@ const LAWS_OF_TEMPERATURE = {
 
 function kelvinPressure(liquid) {
   if (!liquid.density)
-    throw new RangeError(`liquid: ${liquid.name ?? "it"} lacks density and molar_mass, needed for humidity; name the liquid`);
+    throw new RangeError(
+      `liquid: ${liquid.name ?? "it"} lacks density and molar_mass, needed for humidity; name the liquid`,
+    );
   return (RECORDS.gasConstant * liquid.temperature * liquid.density) / liquid.molarMass;
 }
 

@@ -44,9 +44,14 @@ function layOut() {
     for (const name of place.dataset.fields.split(" ")) place.append(fieldNamed(name));
   choice("control", HELD, hold);
   choice("source", [BY_NAME, GIVEN], giveLiquid);
-  options("plot", RECORDS.plotted.map((name) => [name, name.replaceAll("_", " ")]));
+  options(
+    "plot",
+    RECORDS.plotted.map((name) => [name, name.replaceAll("_", " ")]),
+  );
   options("map-choice", mapChoices());
-  at("liquids").innerHTML = liquidNames().map((name) => `<option value="${plainText(name)}">`).join("");
+  at("liquids").innerHTML = liquidNames()
+    .map((name) => `<option value="${plainText(name)}">`)
+    .join("");
   at("laws").innerHTML = RECORDS.laws.map(lawRow).join("");
 }
 
@@ -89,7 +94,9 @@ function lawRow(law, place) {
   const title = law.doi
     ? `<a class="meaning" href="https://doi.org/${encodeURI(law.doi)}" title="${plainText(law.reference)}" rel="noreferrer">${plainText(law.title)}</a>`
     : `<span class="meaning" title="${plainText(law.reference)}">${plainText(law.title)}</span>`;
-  const swatch = canDraw ? `<svg viewBox="0 0 28 6" aria-hidden="true"><path ${lawLine(place)} d="M1 3H27"/></svg>` : "";
+  const swatch = canDraw
+    ? `<svg viewBox="0 0 28 6" aria-hidden="true"><path ${lawLine(place)} d="M1 3H27"/></svg>`
+    : "";
   const name = canDraw
     ? `<label><input type="checkbox" value="${law.name}"> ${law.name}</label>`
     : `<span class="name">${law.name}</span>`;
@@ -102,7 +109,9 @@ function lawRow(law, place) {
 // -- What a person does ----------------------------------------------------------------------------------------------
 
 function listen() {
-  at("is-plane").addEventListener("change", (event) => change("radius2", { radius2: event.target.checked ? "plane" : firstRadius() }));
+  at("is-plane").addEventListener("change", (event) =>
+    change("radius2", { radius2: event.target.checked ? "plane" : firstRadius() }),
+  );
   at("is-same").addEventListener("change", (event) =>
     change("contact-angle2", { "contact-angle2": event.target.checked ? "" : answer.view["contact-angle"] }),
   );
@@ -145,7 +154,11 @@ function hold(control) {
   }
   accept("value");
   const track = trackOf(control, answer);
-  const text = Number.isNaN(value) ? (answer.question.arePlanes ? written(control, valueAt(track, track.steps / 2)) : startingValue(control)) : written(control, value, 5);
+  const text = Number.isNaN(value)
+    ? answer.question.arePlanes
+      ? written(control, valueAt(track, track.steps / 2))
+      : startingValue(control)
+    : written(control, value, 5);
   change("value", { control, value: text });
 }
 
@@ -160,7 +173,9 @@ function letPull(svg) {
   const placeOf = (event) => {
     const box = svg.getBoundingClientRect();
     const unit = Math.max(VIEW_BOX[2] / box.width, VIEW_BOX[3] / box.height);
-    const [x, y] = [event.clientX - box.x - 0.5 * box.width, event.clientY - box.y - 0.5 * box.height].map((one) => one * unit);
+    const [x, y] = [event.clientX - box.x - 0.5 * box.width, event.clientY - box.y - 0.5 * box.height].map(
+      (one) => one * unit,
+    );
     return picture.upright ? -picture.upright * y : x;
   };
   svg.addEventListener("pointerdown", (event) => {
@@ -305,7 +320,8 @@ function measure() {
 /** What the colours of the map depend on. */
 function mapKeyOf({ view, question }) {
   const angle = question.degrees[0] === question.degrees[1] ? "same" : question.degrees[1];
-  const byControl = view.across === "separation" ? Object.values(question.held) : [question.separation, view.control === "volume"];
+  const byControl =
+    view.across === "separation" ? Object.values(question.held) : [question.separation, view.control === "volume"];
   const needsGap = view.map === "rupture" && view.across === "control" ? [view.control === "volume"] : byControl;
   return [view.map, view.across, angle, question.pair.radius, question.held.surfaceTension, needsGap].join(" ");
 }
@@ -357,7 +373,10 @@ function startMap() {
     told.innerHTML = range.isEmpty
       ? "no bridge anywhere, or nothing that the law says"
       : `<span>${key.low}</span><span class="bar" style="background:${key.bar}"></span><span>${key.high}</span><span class="none"></span><span>none</span>`;
-    at("frame").setAttribute("aria-label", `Map of the ${at("map-choice").selectedOptions[0].text}, from ${key.low} to ${key.high}`);
+    at("frame").setAttribute(
+      "aria-label",
+      `Map of the ${at("map-choice").selectedOptions[0].text}, from ${key.low} to ${key.high}`,
+    );
     document.dispatchEvent(new Event("mapped"));
   });
 }
@@ -365,7 +384,8 @@ function startMap() {
 function showFields() {
   const { view } = answer;
   for (const radio of document.querySelectorAll("[name=control]")) radio.checked = radio.value === view.control;
-  for (const radio of document.querySelectorAll("[name=source]")) radio.checked = (radio.value === GIVEN) === (view["surface-tension"] !== "");
+  for (const radio of document.querySelectorAll("[name=source]"))
+    radio.checked = (radio.value === GIVEN) === (view["surface-tension"] !== "");
   at("plot").value = view.plot;
   at("map-choice").value = view.map;
   at("across").value = view.across;
@@ -414,18 +434,28 @@ function accept(name) {
 
 // -- To take away ----------------------------------------------------------------------------------------------------
 
-const wholeCurve = () => csvOf(exact.curve(answer.question.pair, answer.question.held, CSV_POINTS).filter(Boolean), answer.question);
+const wholeCurve = () =>
+  csvOf(exact.curve(answer.question.pair, answer.question.held, CSV_POINTS).filter(Boolean), answer.question);
 
 /** Picture and curve beside each other, in the colours of paper. */
 function wholePicture() {
   const [width, height] = [460, 340];
   const style = getComputedStyle(document.documentElement);
-  const palette = Object.fromEntries(at("style").textContent.match(/--[\w-]+(?=:)/g).map((name) => [name, style.getPropertyValue(name)]));
+  const palette = Object.fromEntries(
+    at("style")
+      .textContent.match(/--[\w-]+(?=:)/g)
+      .map((name) => [name, style.getPropertyValue(name)]),
+  );
   const light = at("style").textContent.match(/:root \{([^}]*)\}/)[1];
   for (const [, name, value] of light.matchAll(/(--[\w-]+): *([^;]+);/g)) palette[name] = value;
   const lines = chartOf(answer, width, height);
-  const rules = [...document.styleSheets[0].cssRules].filter((rule) => /^\.(picture|chart)\b/.test(rule.selectorText ?? ""));
-  const css = rules.map((rule) => rule.cssText).join("\n").replaceAll(/var\((--[\w-]+)\)/g, (_, name) => palette[name]);
+  const rules = [...document.styleSheets[0].cssRules].filter((rule) =>
+    /^\.(picture|chart)\b/.test(rule.selectorText ?? ""),
+  );
+  const css = rules
+    .map((rule) => rule.cssText)
+    .join("\n")
+    .replaceAll(/var\((--[\w-]+)\)/g, (_, name) => palette[name]);
   return (
     `<svg xmlns="http://www.w3.org/2000/svg" width="${2 * width}" height="${height}" viewBox="0 0 ${2 * width} ${height}" font-family="sans-serif">` +
     `<title>${plainText(solidsInWords(answer.question))}</title><style>${css}</style><rect width="100%" height="100%" fill="#fff"/>` +
@@ -499,4 +529,5 @@ layOut();
 measure();
 begin();
 listen();
-if ("serviceWorker" in navigator && location.protocol.startsWith("http")) navigator.serviceWorker.register("offline.js");
+if ("serviceWorker" in navigator && location.protocol.startsWith("http"))
+  navigator.serviceWorker.register("offline.js");

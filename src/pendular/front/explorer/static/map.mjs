@@ -12,14 +12,29 @@ const SPANS = { suction: [-1, 4], volume: [-7, 1] }; // of H R̄/γ and V/R̄³
 export const MAP_MARGIN = { left: 46, right: 10, top: 8, bottom: 44 };
 
 // Light to dark, told apart without colours; and from too small over right to too large.
-const SEQUENCE = [[253, 245, 214], [201, 226, 203], [127, 190, 196], [63, 143, 182], [37, 92, 150], [34, 41, 98]]; // prettier-ignore
-const BALANCE = [[45, 76, 138], [120, 160, 205], [240, 240, 238], [233, 160, 128], [164, 52, 34]]; // prettier-ignore
+const SEQUENCE = [
+  [253, 245, 214],
+  [201, 226, 203],
+  [127, 190, 196],
+  [63, 143, 182],
+  [37, 92, 150],
+  [34, 41, 98],
+];
+const BALANCE = [
+  [45, 76, 138],
+  [120, 160, 205],
+  [240, 240, 238],
+  [233, 160, 128],
+  [164, 52, 34],
+];
 const MOST_ERROR = 0.2;
 
 /** What can be mapped, by its name in the address. */
 export function mapChoices() {
-  const errors = RECORDS.laws.filter(({ gives }) => gives.includes("force")).map(({ name }) => [name, `error of ${name}`]);
-  return [["force", "force"], ["rupture", "rupture distance"], ...errors]; // prettier-ignore
+  const errors = RECORDS.laws
+    .filter(({ gives }) => gives.includes("force"))
+    .map(({ name }) => [name, `error of ${name}`]);
+  return [["force", "force"], ["rupture", "rupture distance"], ...errors];
 }
 
 /** Sides of the map of an answer: what a place in it means. */
@@ -72,7 +87,10 @@ function valueFor({ question, view }, solver, sides) {
   const law = RECORDS.laws.find(({ name }) => name === view.map);
   return (x, degrees) => {
     const angle = degrees * (Math.PI / 180);
-    const pair = { radius: question.pair.radius, contactAngle: [angle, isSame ? angle : question.pair.contactAngle[1]] };
+    const pair = {
+      radius: question.pair.radius,
+      contactAngle: [angle, isSame ? angle : question.pair.contactAngle[1]],
+    };
     const isGap = sides.across === "separation";
     const held = isGap ? question.held : { surfaceTension: question.held.surfaceTension, [sides.control]: x };
     const asked = { ...question, pair, held, separation: isGap ? x : question.separation };
@@ -103,7 +121,8 @@ function paint(canvas, values, name) {
   const image = context.createImageData(COLUMNS, ROWS);
   values.forEach((value, i) => {
     const place = 4 * ((ROWS - 1 - Math.floor(i / COLUMNS)) * COLUMNS + (i % COLUMNS));
-    if (Number.isFinite(value)) // else it stays clear
+    if (Number.isFinite(value))
+      // else it stays clear
       image.data.set([...colourAt(isError ? BALANCE : SEQUENCE, (value - low) / (high - low)), 255], place);
   });
   context.putImageData(image, 0, 0);
@@ -160,7 +179,10 @@ function decades({ low, high, control }) {
 
 function gaps({ high }) {
   const { factor, unit } = scaleOf(high, "m");
-  const ticks = [0, 0.25, 0.5, 0.75, 1].map((share) => [share, signed(String(Number((share * high * factor).toPrecision(3))))]);
+  const ticks = [0, 0.25, 0.5, 0.75, 1].map((share) => [
+    share,
+    signed(String(Number((share * high * factor).toPrecision(3)))),
+  ]);
   return { ticks, title: `separation (${unit})` };
 }
 
@@ -168,6 +190,11 @@ function gaps({ high }) {
 export function mapKey({ low, high, isError }, name) {
   const stops = isError ? BALANCE : SEQUENCE;
   const bar = stops.map((stop) => `rgb(${stop.join(" ")})`).join(", ");
-  const words = (value) => (isError ? `${signed(String(100 * value))}\u00a0%` : show(value, name === "rupture" ? "m" : "N", 3));
-  return { bar: `linear-gradient(to right, ${bar})`, low: isError ? `≤ ${words(low)}` : words(low), high: isError ? `≥ +${words(high)}` : words(high) };
+  const words = (value) =>
+    isError ? `${signed(String(100 * value))}\u00a0%` : show(value, name === "rupture" ? "m" : "N", 3);
+  return {
+    bar: `linear-gradient(to right, ${bar})`,
+    low: isError ? `≤ ${words(low)}` : words(low),
+    high: isError ? `≥ +${words(high)}` : words(high),
+  };
 }

@@ -14,7 +14,11 @@ const OUTLINE_POINTS = 97;
 export function pictureOf(answer, solver) {
   const scene = sceneOf(answer.question, answer.state, answer.question.separation, solver);
   const [overview, window] = windowsOf(answer, scene, solver);
-  const parts = [bodyOf(scene, window), showsAxis(window) ? measuresOf(scene, window) : distanceOf(scene), barOf(window)];
+  const parts = [
+    bodyOf(scene, window),
+    showsAxis(window) ? measuresOf(scene, window) : distanceOf(scene),
+    barOf(window),
+  ];
   if (window !== overview) parts.push(cardOf(scene, overview, window));
   return {
     svg: parts.join(""),
@@ -120,7 +124,12 @@ function outlineOf(radius, pole, side, window) {
   if (radius === Infinity) {
     const far = pole + side * 4 * window.half;
     const high = window.y + margin;
-    return [[pole, high], [far, high], [far, -high], [pole, -high]]; // prettier-ignore
+    return [
+      [pole, high],
+      [far, high],
+      [far, -high],
+      [pole, -high],
+    ];
   }
   const turns = Array.from({ length: 49 }, (_, i) => (Math.PI * i) / 48);
   for (let i = 0; i <= 48; i++) turns.push(Math.asin(clip01((window.y - margin + (2 * margin * i) / 48) / radius)));
@@ -135,7 +144,9 @@ function shapeOf(tag, name, window, points) {
   let before = "";
   const places = [];
   for (const [x, y] of points) {
-    const place = placeIn(window, x, y).map((number) => number.toFixed(2)).join(",");
+    const place = placeIn(window, x, y)
+      .map((number) => number.toFixed(2))
+      .join(",");
     if (place !== before) places.push(place);
     before = place;
   }
@@ -145,13 +156,29 @@ function shapeOf(tag, name, window, points) {
 /** Axis of symmetry, contact circles seen from the side, and the gap between the poles. */
 function measuresOf(scene, window) {
   const beyond = 2 * window.half;
-  const parts = [shapeOf("polyline", "axis", window, [[-beyond, 0], [beyond, 0]])]; // prettier-ignore
+  const parts = [
+    shapeOf("polyline", "axis", window, [
+      [-beyond, 0],
+      [beyond, 0],
+    ]),
+  ];
   for (const end of scene.x.length ? [0, scene.x.length - 1] : []) {
     const [x, y] = [scene.x[end], scene.y[end]];
-    parts.push(shapeOf("polyline", "rim", window, [[x, -y], [x, y]])); // prettier-ignore
+    parts.push(
+      shapeOf("polyline", "rim", window, [
+        [x, -y],
+        [x, y],
+      ]),
+    );
   }
   const far = (window.upright ? -0.5 : -0.8) * window.half * reachOf(window)[1];
-  for (const pole of [0, scene.gap]) parts.push(shapeOf("polyline", "measure", window, [[pole, 0], [pole, far]])); // prettier-ignore
+  for (const pole of [0, scene.gap])
+    parts.push(
+      shapeOf("polyline", "measure", window, [
+        [pole, 0],
+        [pole, far],
+      ]),
+    );
   const [u, v] = placeIn(window, 0.5 * scene.gap, 1.03 * far);
   const [place, anchor] = window.upright ? [[u, v + 3], "end"] : [[u, v + 8], "middle"];
   return parts.join("") + textAt(...place, gapWords(scene), anchor);
@@ -159,7 +186,10 @@ function measuresOf(scene, window) {
 
 /** In words, how far away the axis is that lies out of sight, and the gap on it. */
 function distanceOf(scene) {
-  return textAt(128, 83, `axis ${show(Math.min(...scene.y), "m", 4)} away`, "end") + textAt(128, 93, `${gapWords(scene)} there`, "end");
+  return (
+    textAt(128, 83, `axis ${show(Math.min(...scene.y), "m", 4)} away`, "end") +
+    textAt(128, 93, `${gapWords(scene)} there`, "end")
+  );
 }
 
 const gapWords = ({ gap }) => `D = ${show(gap, "m", 4)}`;
@@ -177,7 +207,8 @@ function barOf(window) {
   );
 }
 
-const textAt = (x, y, words, anchor) => `<text x="${x.toFixed(2)}" y="${y.toFixed(2)}" text-anchor="${anchor}">${words}</text>`;
+const textAt = (x, y, words, anchor) =>
+  `<text x="${x.toFixed(2)}" y="${y.toFixed(2)}" text-anchor="${anchor}">${words}</text>`;
 
 /** The pair from afar in a corner deep inside a solid, with the window marked in it. */
 function cardOf(scene, overview, window) {

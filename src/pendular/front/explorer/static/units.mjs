@@ -7,10 +7,20 @@ const PREFIXED = /^(f|p|n|u|µ|μ|m|c|d|h|k|M|G)?(m|L|l|Pa|bar|N)$/;
 // SI unit of each base, and its size in it.
 const BASES = { m: ["m", 1], L: ["m^3", 1e-3], l: ["m^3", 1e-3], Pa: ["Pa", 1], bar: ["Pa", 1e5], N: ["N", 1] };
 const SINGLE = {
-  Å: ["m", 1e-10], angstrom: ["m", 1e-10], in: ["m", 0.0254], inch: ["m", 0.0254], micron: ["m", 1e-6],
-  atm: ["Pa", 101325], psi: ["Pa", 6894.757293168361], mmHg: ["Pa", 133.322387415], torr: ["Pa", 101325 / 760],
-  "dyn/cm": ["N/m", 1e-3], deg: ["deg", 1], rad: ["deg", 180 / Math.PI], K: ["K", 1],
-}; // prettier-ignore
+  Å: ["m", 1e-10],
+  angstrom: ["m", 1e-10],
+  in: ["m", 0.0254],
+  inch: ["m", 0.0254],
+  micron: ["m", 1e-6],
+  atm: ["Pa", 101325],
+  psi: ["Pa", 6894.757293168361],
+  mmHg: ["Pa", 133.322387415],
+  torr: ["Pa", 101325 / 760],
+  "dyn/cm": ["N/m", 1e-3],
+  deg: ["deg", 1],
+  rad: ["deg", 180 / Math.PI],
+  K: ["K", 1],
+};
 
 // SI units as they are shown: the base that carries the prefix, the rest, its power, and its size in the SI unit.
 const SHOWN = {
@@ -37,7 +47,8 @@ export function readQuantity(name, text, unit, example) {
   if (unit === "K" && own === "degF") return rounded((number + 459.67) / 1.8, 15);
   const found = sizeOf(own);
   if (!found) throw new RangeError(`${name}: '${text}' has the unknown unit '${own}'; write it like ${example}`);
-  if (found[0] !== unit) throw new RangeError(`${name}: '${text}' is not a quantity in ${unit}; write it like ${example}`);
+  if (found[0] !== unit)
+    throw new RangeError(`${name}: '${text}' is not a quantity in ${unit}; write it like ${example}`);
   return rounded(number * found[1], 15);
 }
 
@@ -50,7 +61,8 @@ export function readDegrees(name, text) {
 /** Pure number of a text such as "0.9" or "90%". */
 export function readFraction(name, text) {
   const [number, own] = split(name, text, "90%");
-  if (own !== "" && own !== "%") throw new RangeError(`${name}: '${text}' is not a pure number; write it like 90% or 0.9`);
+  if (own !== "" && own !== "%")
+    throw new RangeError(`${name}: '${text}' is not a pure number; write it like 90% or 0.9`);
   if (!own && number > 1) throw new RangeError(`${name}: '${text}' is above 1; per cent have their sign, 90%`);
   return own ? number / 100 : number;
 }

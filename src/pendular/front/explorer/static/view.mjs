@@ -43,7 +43,9 @@ export function hashOf(view) {
   const parts = optionsOf(view);
   for (const name of ["plot", "map", "across"]) if (view[name] !== FIRST_VIEW[name]) parts[name] = view[name];
   if (view.laws.length) parts.laws = view.laws.join(",");
-  return Object.entries(parts).map(([name, text]) => `${name}=${encodeURIComponent(text).replaceAll("%2C", ",")}`).join("&");
+  return Object.entries(parts)
+    .map(([name, text]) => `${name}=${encodeURIComponent(text).replaceAll("%2C", ",")}`)
+    .join("&");
 }
 
 /** The view of an address; RangeError for a parameter that no view has. */
@@ -58,10 +60,19 @@ export function viewAt(hash) {
     delete texts[name];
   }
   if ("laws" in texts) view.laws = texts.laws.split(",").filter(Boolean);
-  for (const name of view.laws) oneOf("laws", name, RECORDS.laws.map((law) => law.name));
+  for (const name of view.laws)
+    oneOf(
+      "laws",
+      name,
+      RECORDS.laws.map((law) => law.name),
+    );
   delete texts.laws;
   for (const [name, text] of Object.entries(texts)) {
-    oneOf("address", name, Object.keys(FIRST_VIEW).filter((own) => !["control", "value", "laws"].includes(own)));
+    oneOf(
+      "address",
+      name,
+      Object.keys(FIRST_VIEW).filter((own) => !["control", "value", "laws"].includes(own)),
+    );
     view[name] = spaced(/^contact-angle/.test(name) && /\d$/.test(text) ? `${text}°` : text);
   }
   oneOf("plot", view.plot, RECORDS.plotted);
@@ -132,7 +143,8 @@ function readContactAngle(name, text) {
 }
 
 function readLiquid(view) {
-  if (!view["surface-tension"]) return liquidNamed(view.liquid, readQuantity("temperature", view.temperature, "K", "20degC"));
+  if (!view["surface-tension"])
+    return liquidNamed(view.liquid, readQuantity("temperature", view.temperature, "K", "20degC"));
   const surfaceTension = readQuantity("surface-tension", view["surface-tension"], "N/m", "72.8mN/m");
   if (!(surfaceTension > 0)) throw new RangeError(`surface-tension: ${surfaceTension} N/m is not > 0`);
   return { surfaceTension };
@@ -146,7 +158,8 @@ function readHeld(control, text) {
     return volume;
   }
   const humidity = readFraction("humidity", text);
-  if (!(humidity > 0 && humidity < 1)) throw new RangeError(`humidity: ${humidity} is not in (0, 1); saturation is a suction of 0`);
+  if (!(humidity > 0 && humidity < 1))
+    throw new RangeError(`humidity: ${humidity} is not in (0, 1); saturation is a suction of 0`);
   return humidity;
 }
 
@@ -155,21 +168,30 @@ function refuseBeyondDomain({ pair, held, control, separation, meanRadius, arePl
   const brief = (value) => rounded(value, 6);
   if (arePlanes) {
     if (control !== "volume")
-      throw new RangeError(`${control}: holds no stable bridge between two planes, which dries up or floods the gap; hold a volume`);
+      throw new RangeError(
+        `${control}: holds no stable bridge between two planes, which dries up or floods the gap; hold a volume`,
+      );
     const least = narrowest * Math.cbrt(held.volume);
-    if (!(separation > 0)) throw new RangeError(`separation: ${separation} m is not > 0; two planes in contact leave no room for liquid`);
-    if (separation < least) throw new RangeError(`separation: ${brief(separation)} m is not >= ${brief(least)} between two planes`);
+    if (!(separation > 0))
+      throw new RangeError(`separation: ${separation} m is not > 0; two planes in contact leave no room for liquid`);
+    if (separation < least)
+      throw new RangeError(`separation: ${brief(separation)} m is not >= ${brief(least)} between two planes`);
     return;
   }
   const deepest = -deepestOverlap * Math.min(...pair.radius);
   if (!(separation > deepest))
-    throw new RangeError(`separation: ${separation} m is not > ${brief(deepest)}; an overlap may reach half the smaller radius`);
+    throw new RangeError(
+      `separation: ${separation} m is not > ${brief(deepest)}; an overlap may reach half the smaller radius`,
+    );
   const unit = control === "volume" ? meanRadius ** 3 : held.surfaceTension / meanRadius;
-  const [low, high] = control === "volume" ? [leastVolume * unit, mostVolume * unit] : [-mostSuction * unit, mostSuction * unit];
+  const [low, high] =
+    control === "volume" ? [leastVolume * unit, mostVolume * unit] : [-mostSuction * unit, mostSuction * unit];
   const asked = control === "volume" ? held.volume : held.suction;
   if (!(asked >= low && asked <= high)) {
     const symbol = control === "volume" ? "m^3" : "Pa";
-    throw new RangeError(`${control}: ${brief(asked)} ${symbol} is not in [${brief(low)}, ${brief(high)}] ${symbol} for these solids`);
+    throw new RangeError(
+      `${control}: ${brief(asked)} ${symbol} is not in [${brief(low)}, ${brief(high)}] ${symbol} for these solids`,
+    );
   }
 }
 

@@ -46,13 +46,27 @@ export function numbersOf({ state, rupture, question, isFailure }) {
     const value = valueIn(name, state, question);
     const parts = endings.length ? value.map((one) => show(one, unit)) : [inWords(value, unit)];
     const isPair = parts.length === 2 && parts[0] === parts[1] && name !== "capillary_tensor";
-    rows.push(row(name.replaceAll("_", " "), isPair ? `<span>${parts[0]}</span> each` : parts.map((part) => `<span>${part}</span>`).join(", "), meaning));
-    if (name === "force" && rupture) rows.push(row("rupture distance", show(rupture.separation, "m"), "separation at which the bridge breaks"));
+    rows.push(
+      row(
+        name.replaceAll("_", " "),
+        isPair ? `<span>${parts[0]}</span> each` : parts.map((part) => `<span>${part}</span>`).join(", "),
+        meaning,
+      ),
+    );
+    if (name === "force" && rupture)
+      rows.push(row("rupture distance", show(rupture.separation, "m"), "separation at which the bridge breaks"));
   }
   return rows.join("");
 }
 
-const inWords = (value, unit) => (typeof value === "boolean" ? (value ? "yes" : "no") : unit || !Number.isInteger(value) ? show(value, unit) : String(value));
+const inWords = (value, unit) =>
+  typeof value === "boolean"
+    ? value
+      ? "yes"
+      : "no"
+    : unit || !Number.isInteger(value)
+      ? show(value, unit)
+      : String(value);
 
 /** A field of a state; what was asked is told as it was asked. */
 function valueIn(name, state, question) {
@@ -68,7 +82,10 @@ function valueIn(name, state, question) {
 /** Command that prints the same answer. */
 export function commandOf(view) {
   const quoted = (text) => (/^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replaceAll("'", `'"'"'`)}'`);
-  return ["pendular bridge", ...Object.entries(optionsOf(view)).map(([name, text]) => `--${name} ${quoted(text)}`)].join(" ");
+  return [
+    "pendular bridge",
+    ...Object.entries(optionsOf(view)).map(([name, text]) => `--${name} ${quoted(text)}`),
+  ].join(" ");
 }
 
 /** Program that prints the same force. */
@@ -101,7 +118,14 @@ export function csvOf(states, question) {
   const columns = RECORDS.fields.flatMap(({ name, unit, endings }) =>
     (endings.length ? endings : [""]).map((ending, i) => ({
       title: `${name}${ending && `_${ending}`}${unit && ` [${unit}]`}`,
-      value: (state) => (endings.length ? state[fieldOf(name)][i] : name === "exists" ? true : name in question.held ? question.held[name] : state[fieldOf(name)]),
+      value: (state) =>
+        endings.length
+          ? state[fieldOf(name)][i]
+          : name === "exists"
+            ? true
+            : name in question.held
+              ? question.held[name]
+              : state[fieldOf(name)],
     })),
   );
   const cell = (value) => (Number.isNaN(value) ? "nan" : String(value).replace("Infinity", "inf"));
