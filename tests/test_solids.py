@@ -193,6 +193,33 @@ def test_a_profile_begins_and_ends_on_its_solids(volume):
     np.testing.assert_allclose(shape.solid_x[1] - 0.3, shape.solid_y[1] ** 2 / 4.0, atol=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("solids", "volume"),
+    [
+        ((pl.Cone(math.radians(50.0)), 1.0), 0.1),
+        ((pl.Cone(math.radians(50.0), 0.5), pl.Paraboloid(2.0)), 0.3),
+        ((pl.Disc(1.0), pl.Disc(0.8, pinned=True)), 0.6),
+        ((pl.Disc(1.0), math.inf), 2.5),
+        ((pl.Convex(np.linspace(0.0, 2.0, 200), lambda y: 0.3 * y**2 + 0.1 * y**4), pl.Disc(1.0)), 0.2),
+    ],
+)
+def test_a_mesh_has_the_volume_and_the_areas_of_the_bridge(solids, volume):
+    found = pl.bridge(pl.Pair(solids, 0.5), 0.2, volume=volume, liquid=UNIT)
+    misses = []
+    for around in (60, 120):
+        mesh = found.mesh(around)
+        corners = mesh.points[mesh.triangles]
+        normals = 0.5 * np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        areas = [np.linalg.norm(normals[mesh.surface == name], axis=1).sum() for name in range(3)]
+        exact = [found.liquid_gas_area, *found.wetted_area]
+        liquid = mesh.surface < 3
+        contained = np.linalg.det(corners[liquid]).sum() / 6.0
+        assert np.linalg.norm(normals[liquid].sum(axis=0)) < 1e-10  # closed
+        misses.append(np.abs(np.append(np.array(areas) / exact - 1.0, contained / volume - 1.0)).max())
+    assert misses[1] < 2e-2
+    assert misses[1] < 0.3 * misses[0]
+
+
 def test_under_suction_a_line_slides_along_the_side_of_a_cylinder():
     pair = pl.Pair((pl.Disc(1.0), 3.0), np.deg2rad(15.0))
     held = {"suction": 0.35, "liquid": UNIT}
@@ -418,9 +445,9 @@ def test_every_answer_solves_the_equation():
 
 @pytest.mark.long
 def test_every_answer_of_many_solves_the_equation():
-    answered, silent = check_questions(32, 800)
-    assert answered > 250
-    assert silent < 120
+    answered, silent = check_questions(32, 500)
+    assert answered > 180
+    assert silent < 110
 
 
 @pytest.mark.parametrize(

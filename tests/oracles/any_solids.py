@@ -208,7 +208,7 @@ def make(first, second, radius, suction, slope=None, *, longest=6.0, number=0):
         return state[1] - 1e-3 * radius
 
     def winds(_s, state):
-        return 3.0 - abs(state[2])
+        return 4.0 - abs(state[2])
 
     def run(function, stop, start, **options):
         return solve_ivp(function, (0.0, stop), start, "DOP853", atol=1e-15 * radius, **options)

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["SHOWN_OF_A_PLANE", "SURFACES", "Mesh", "meniscus_rings", "turned"]
+__all__ = ["SHOWN_OF_A_PLANE", "SURFACES", "Mesh", "Outline", "meniscus_rings", "outline_of_sphere", "steps", "turned"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -38,15 +38,22 @@ def meniscus_rings(length: float, radius: float, around: int) -> int:
     return 1 + min(math.ceil(strips), _MOST)
 
 
-def turned(meniscus: Floats, radii: Floats, filling: Floats, separation: float, around: int) -> Mesh:
+class Outline(NamedTuple):
+    """Depths behind the pole of a solid, and radii, of its rings inside the contact circle and outside of it."""
+
+    inner: Floats
+    outer: Floats
+
+
+def turned(meniscus: Floats, outlines: tuple[Outline, Outline], separation: float, around: int) -> Mesh:
     """Mesh of a bridge whose meridian is turned about the axis.
 
     Parameters
     ----------
     meniscus : array of shape (2, rings)
         Places on the axis and radii, from the first solid to the second, [m].
-    radii, filling : array of shape (2,)
-        Of the solids, [m], and their half-filling angles, [rad].
+    outlines : tuple of two Outline
+        Of the solids, [m].
     separation : float
         Gap from pole to pole, [m].
     around : int
@@ -57,43 +64,42 @@ def turned(meniscus: Floats, radii: Floats, filling: Floats, separation: float, 
     Mesh
     """
     wetted, dry = [], []
-    for solid, contact in ((0, meniscus[:, 0]), (1, meniscus[:, -1])):
-        inner, outer = _outlines(radii[solid], filling[solid], contact[1], around)
+    for solid, (inner, outer) in enumerate(outlines):
         away = [[-1.0], [1.0]] if solid == 0 else [[1.0], [1.0]]  # from the other solid
         pole = [[0.0 if solid == 0 else separation], [0.0]]
         wetted.append(inner * away + pole)
         dry.append(outer * away + pole)
-    inside, across, beyond = wetted[0].shape[1], meniscus.shape[1], dry[0].shape[1]
-    liquid = np.arange(2 * inside + across)
-    first, last = inside, inside + across - 1  # contact circles
+    inside, across, beyond = [each.shape[1] for each in wetted], meniscus.shape[1], dry[0].shape[1]
+    liquid = np.arange(sum(inside) + across)
+    first, last = inside[0], inside[0] + across - 1  # contact circles
     behind = liquid.size + np.arange(beyond + dry[1].shape[1])
     chains = (
-        (liquid, np.repeat([_WETTED1, _LIQUID_GAS, _WETTED2], [inside, across - 1, inside])),
+        (liquid, np.repeat([_WETTED1, _LIQUID_GAS, _WETTED2], [inside[0], across - 1, inside[1]])),
         (np.append(behind[:beyond][::-1], first), np.full(beyond, _DRY1)),
         (np.append(last, behind[beyond:]), np.full(dry[1].shape[1], _DRY2)),
     )
     return _joined(np.concatenate([wetted[0], meniscus, wetted[1][:, ::-1], *dry], axis=1), chains, around)
 
 
-def _outlines(radius: float, filling: float, contact: float, around: int) -> tuple[Floats, Floats]:
-    """Depths behind the pole of a solid, and radii, of its rings inside the contact circle and outside of it."""
+def outline_of_sphere(radius: float, filling: float, contact: float, around: int) -> Outline:
+    """Outline of a sphere with its half-filling angle, or of a plane with its contact circle."""
     shares = np.linspace(0.0, 1.0, around // 6, endpoint=False)
     if math.isinf(radius):
         within = contact * shares
-        without = contact * np.exp(_steps(0.0, math.log(SHOWN_OF_A_PLANE), around))
-        return np.stack([np.zeros_like(within), within]), np.stack([np.zeros_like(without), without])
+        without = contact * np.exp(steps(0.0, math.log(SHOWN_OF_A_PLANE), around))
+        return Outline(np.stack([np.zeros_like(within), within]), np.stack([np.zeros_like(without), without]))
     within = filling * shares
     # in ln tan(δ/2) triangles are as high as wide, at any distance from the poles
     first, last = math.log(math.tan(0.5 * filling)), -math.log(math.tan(math.pi / around))
-    without = np.append(2.0 * np.arctan(np.exp(_steps(first, max(first, last), around))), math.pi)
+    without = np.append(2.0 * np.arctan(np.exp(steps(first, max(first, last), around))), math.pi)
     inner, outer = (
         np.stack([2.0 * radius * np.sin(0.5 * turn) ** 2, radius * np.sin(turn)]) for turn in (within, without)
     )
     outer[1, -1] = 0.0  # the far pole is a point
-    return inner, outer
+    return Outline(inner, outer)
 
 
-def _steps(start: float, stop: float, around: int) -> Floats:
+def steps(start: float, stop: float, around: int) -> Floats:
     """Even steps to an end, without the start, about as long as those of a ring."""
     count = math.ceil((stop - start) * around / (2.0 * math.pi))
     return np.linspace(start, stop, count + 1)[1:]

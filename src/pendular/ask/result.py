@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ..exact.batch import lay
 from ..ground.check import in_range, whole_number
-from .mesh import SHOWN_OF_A_PLANE, Mesh, meniscus_rings, turned
+from .mesh import SHOWN_OF_A_PLANE, Mesh, Outline, meniscus_rings, outline_of_sphere, turned
 from .shapes import Shape
 
 Floats = NDArray[np.float64]
@@ -147,17 +147,22 @@ class Bridge:
             raise ValueError(f"mesh: is made of one bridge, not of an array of shape {np.shape(self.separation)}")
         if not self.exists:
             raise ValueError("mesh: there is no bridge")
-        for shape in filter(None, self._shapes):
-            raise ValueError(f"mesh: {shape} is neither a sphere nor a plane, which alone have one")
         if self.separation < 0.0:
             raise ValueError(
                 f"separation: {self.separation:.6g} m is below 0: the wetted surfaces of a mesh would cross"
             )
         radius, _slope, half_length = self._meridian
         profile = self.profile(meniscus_rings(2.0 * half_length, radius, count))
-        return turned(
-            np.stack([profile.x, profile.y]), self._solid_radius, self.half_filling_angle, float(self.separation), count
-        )
+        outlines = self._rings(0, count), self._rings(1, count)
+        return turned(np.stack([profile.x, profile.y]), outlines, float(self.separation), count)
+
+    def _rings(self, solid: int, around: int) -> Outline:
+        """Rings of the mesh of a solid."""
+        shape, contact = self._shapes[solid], float(self.contact_radius[solid])
+        if shape is None:
+            filling = float(self.half_filling_angle[solid])
+            return outline_of_sphere(float(self._solid_radius[solid]), filling, contact, around)
+        return shape.rings(contact, float(self.wetted_area[solid]), around)
 
 
 def _outline(radius: Floats, plane_height: Floats, count: int) -> tuple[Floats, Floats]:

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..exact.shapes.pieces import Body, body_of_cone, body_of_disc, body_of_drawn, body_of_paraboloid
 from ..exact.solids.drawn import Spline
 from ..ground.check import in_range, quantity, scalar
+from .mesh import SHOWN_OF_A_PLANE, Outline, steps
 
 __all__ = ["Cone", "Convex", "Disc", "Paraboloid", "Shape"]
 
@@ -39,6 +40,12 @@ class Shape(ABC):
     def line_depth(self, radius: Floats, wetted: Floats) -> Floats:
         """Depth of a contact line of a radius and a wetted area behind the tip, [m]."""
         return self.depth(radius)
+
+    def rings(self, radius: float, wetted: float, around: int) -> Outline:
+        """Rings of a mesh inside and outside of a contact circle of a radius and a wetted area."""
+        within = radius * np.linspace(0.0, 1.0, around // 6, endpoint=False)
+        without = radius * np.exp(steps(0.0, math.log(SHOWN_OF_A_PLANE), around))
+        return Outline(np.stack([self.depth(within), within]), np.stack([self.depth(without), without]))
 
     def outline(self, reach: Floats, points: int) -> tuple[Floats, Floats]:
         """Depths and radii of its surface from the tip out to a distance from the axis, on a further last axis."""
@@ -202,6 +209,22 @@ class Disc(Shape):
         depth: Floats = wetted / (2.0 * math.pi * self.radius) - 0.5 * self.radius
         return np.where(radius < self.radius * (1.0 - 1e-9), 0.0, np.maximum(depth, 0.0))
 
+    def rings(self, radius: float, wetted: float, around: int) -> Outline:
+        """Rings of a mesh inside and outside of a contact circle of a radius and a wetted area."""
+        edge, behind = self.radius, float(self.line_depth(np.array(radius), np.array(wetted)))
+        within = radius * np.linspace(0.0, 1.0, around // 6, endpoint=False)
+        inner = np.stack([0.0 * within, within])
+        if behind > 0.0:
+            up = np.linspace(0.0, behind, 1 + math.ceil(behind / edge * around / 6), endpoint=False)
+            inner = np.append(inner, np.stack([up, np.full_like(up, edge)]), axis=1)
+        out = (
+            radius * np.exp(steps(0.0, math.log(edge / radius), around))
+            if radius < edge * (1.0 - 1e-9)
+            else np.empty(0)
+        )
+        back = behind + edge * np.linspace(0.0, SHOWN_OF_A_PLANE, around // 3)[1:]
+        return Outline(inner, np.append(np.stack([0.0 * out, out]), np.stack([back, np.full_like(back, edge)]), axis=1))
+
     def outline(self, reach: Floats, points: int) -> tuple[Floats, Floats]:
         """Depths and radii of the face and the side, as far back as a length."""
         way = np.linspace(0.0, 1.0, points)
@@ -263,6 +286,13 @@ class Convex(Shape):
         """Depth of its surface behind the tip at distances from the axis, [m]; beyond its end, that at the end."""
         found: Floats = self._spline.depth(np.minimum(radius, self.size))
         return found
+
+    def rings(self, radius: float, wetted: float, around: int) -> Outline:
+        """Rings of a mesh inside and outside of a contact circle, out to the end of what is known."""
+        whole = super().rings(radius, wetted, around)
+        end = np.array([[float(self.depth(np.array(self.size)))], [self.size]])
+        known = whole.outer[:, whole.outer[1] < self.size * (1.0 - 1e-9)]
+        return Outline(whole.inner, np.append(known, end, axis=1) if radius < self.size else whole.outer)
 
     def outline(self, reach: Floats, points: int) -> tuple[Floats, Floats]:
         """Depths and radii of its surface from the tip to its end, or to a distance from the axis."""
