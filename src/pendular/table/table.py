@@ -387,8 +387,8 @@ def _build(task: Task) -> tuple[Grid, Bound]:
     grid = join(task, octaves)
     bound, errors = measure(grid, task, octaves_of_rows(grid, len(octaves)))
     for _ in range(1, _MOST_BUILDS):
-        is_left = (errors > task.tolerance) & (errors < _HOPELESS * task.tolerance)
-        if not is_left.any():
+        is_left = errors > task.tolerance
+        if not is_left.any() or errors.max() > _HOPELESS * task.tolerance:
             break
         for i in np.flatnonzero(is_left).tolist():
             shares[i] *= max(_LEAST_STEP, _AIM * task.tolerance / errors[i])
