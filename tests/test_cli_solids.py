@@ -65,7 +65,7 @@ def test_a_pair_of_solids_is_drawn(run, tmp_path):
         (("--solid", "disc:-1mm"), "solid: '-1mm' is not > 0; write it like 1mm"),
         (("--radius", "1mm", "--solid", "disc:1mm"), "solid: given together with radius; one of the two is needed"),
         (("--solid", "disc:1mm:glued"), "solid: 'disc:1mm:glued' is not one of"),
-        (("--solid2", "disc:1mm"), "radius: missing; write --radius 50um, or --diameter 100um, or --solid cone:30deg"),
+        (("--solid2", "disc:1mm"), "radius: missing; write --radius 50um, or --diameter 100um"),
     ],
 )
 def test_a_solid_that_cannot_be_meant_is_one_line(run, options, message):

@@ -268,7 +268,7 @@ def _solids(first: _Given, second: _Given) -> "tuple[float | Shape, float | Shap
     """Both solids, each from whatever it is given by; the second is as the first without."""
     one, other = _solid(first, ""), _solid(second, "2")
     if one is None:
-        raise ValueError("radius: missing; write --radius 50um, or --diameter 100um, or --solid cone:30deg")
+        raise ValueError("radius: missing; write --radius 50um, or --diameter 100um")
     return one, one if other is None else other
 
 
