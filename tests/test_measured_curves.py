@@ -41,6 +41,15 @@ def curves():
 
 
 CURVES = curves()
+
+
+def before_rupture(name):
+    """A curve without the points that lie beyond the rupture of the bridge that was told."""
+    pair, volume, liquid, gap, force = CURVES[name]
+    inside = gap < float(pl.rupture(pair, volume=volume, liquid=liquid).separation)
+    return pair, volume, liquid, gap[inside], force[inside]
+
+
 SILICONE = [name for name in CURVES if name.startswith("Willett2000")]
 
 
@@ -68,11 +77,39 @@ def test_the_pull_kept_the_volume(name):
 
 @pytest.mark.parametrize("name", [name for name in CURVES if name not in SILICONE])
 def test_a_fit_is_nearer_than_the_numbers_told(name):
-    pair, volume, liquid, gap, force = CURVES[name]
-    inside = gap < float(pl.rupture(pair, volume=volume, liquid=liquid).separation)
-    gap, force = gap[inside], force[inside]
+    pair, volume, liquid, gap, force = before_rupture(name)
     nominal = pl.bridge(pair, gap, volume=volume, liquid=liquid).force - force
     found = pl.fit(gap, force, pl.Pair(pair.radius, 0.3), volume=volume, liquid=liquid)
     before, after = float(np.sqrt(np.mean(nominal**2))), found.rms
     print(f"{name}: rms {before / force.max():.4f} as told, {after / force.max():.4f} fitted: {found.values}")
     assert after < 0.7 * before
+
+
+GUIDE = Path(__file__).parents[1] / "docs" / "howto" / "fit.md"
+SHOWN = {  # words of the guide
+    "Willett2000 R=1:1 0.0136": ("Willett 2000, spheres of 2.381 mm, oil", "0°, 13.6 nL"),
+    "Willett2000 R=1:1 0.0313": ("the same", "0°, 31.3 nL"),
+    "Willett2000 R=1:1 0.0742": ("the same", "0°, 74.2 nL"),
+    "Willett2000 sphere-flat 0.1624": ("Willett 2000, the sphere on a plate", "0°, 162.4 nL"),
+    "Lambert2008 case1 0.065": ("Lambert 2008, spheres of 2 and 3.95 mm", "0° and 14.3°, 65 nL"),
+    "Lambert2008 case2 1.4": ("the same", "0° and 14.3°, 1.4 µL"),
+    "Rabinovich2005(um,uN,um3) 0.2": ("Rabinovich 2005, spheres of 19 and 35 µm", "10°, 0.2 µm³"),
+    "Rabinovich2005(um,uN,um3) 1.2": ("Rabinovich 2005, spheres of 19 and 32.5 µm", "10°, 1.2 µm³"),
+    "Rabinovich2005(um,uN,um3) 3.6": ("Rabinovich 2005, spheres of 19 and 27.5 µm", "10°, 3.6 µm³"),
+}
+
+
+@pytest.mark.parametrize("name", list(SHOWN))
+def test_the_guide_shows_what_is_found(name):
+    pair, volume, liquid, gap, force = before_rupture(name)
+    found = pl.fit(gap, force, pl.Pair(pair.radius, 0.3), volume=volume, liquid=liquid)
+    angle, error = (np.rad2deg(of["contact_angle"]) for of in (found.values, found.errors))
+    cells = (
+        *SHOWN[name],
+        f"< {np.rad2deg(found.upper['contact_angle']):.0f}°" if found.upper else f"{angle:.0f} ± {error:.0f}°",
+        f"{found.values['volume'] / volume:.2f} ± {found.errors['volume'] / volume:.2f}",
+        f"{1e6 * found.values['offset']:.2g} ± {1e6 * found.errors['offset']:.2g}",
+        f"{100.0 * found.rms / force.max():.1f} %",
+    )
+    line = f"| {' | '.join(cells)} |"
+    assert line in GUIDE.read_text(encoding="utf-8"), line
