@@ -67,7 +67,7 @@ def test_solids_that_no_suction_holds_are_refused(tmp_path, capsys, degrees):
     with pytest.raises(SystemExit) as end:
         main(["export", "c", "--contact-angle", degrees, "--reduced-suction", "10", "100", "--out", str(path)])
     assert end.value.code == 2
-    line = f"pendular: contact_angle: {degrees} and {degrees} deg are not below 180 deg together; no suction"
+    line = f"pendular: contact-angle: {degrees} and {degrees} deg are not below 180 deg together; no suction"
     assert capsys.readouterr().err.startswith(line)
     assert not path.exists()
 

@@ -24,7 +24,7 @@ def asked(law, quantity, rng):
     pair = [control, *angles.tolist(), *kappas(rng.choice([1.0, rng.uniform(1.0, 100.0), 1e15, math.inf]))]
     if rng.random() < 0.2:
         pair[rng.integers(3)] = SPECIAL[rng.integers(len(SPECIAL))]
-    if quantity != "force":
+    if quantity not in ("force", "damping"):
         return pair
     gap = 10.0 ** rng.uniform(-12.0, 3.0) * rng.choice([0.0, 1.0, 1.0, 1.0, -1.0])
     if law.rupture_star and rng.random() < 0.5:

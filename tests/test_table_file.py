@@ -609,7 +609,7 @@ def test_the_command_adds_channels_by_name(run, tmp_path):
         (["--out", "w.bridges", "--tolerance", "1"], "tolerance: 1.0 is not in"),
         (["--out", "w.bridges", "--channel", "wetness"], "channel: 'wetness' is not one of"),
         (["--out", "w.bridges", "--contact-angle2", "181"], "contact-angle2: "),
-        (["--out", "w.bridges", "--contact-angle2", "160"], "contact_angle: 20 and 160 deg are not below 180 deg"),
+        (["--out", "w.bridges", "--contact-angle2", "160"], "contact-angle: 20 and 160 deg are not below 180 deg"),
     ],
 )
 def test_bad_options_are_refused_in_one_line(run, options, message, tmp_path, monkeypatch):

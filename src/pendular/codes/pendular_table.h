@@ -273,7 +273,7 @@ PENDULAR_FUNCTION double pendular_table_of_pair(
 PENDULAR_FUNCTION double pendular_table_cube_root(double number)
 {
     const int64_t third = ((pendular_table_bits(number) >> 32) * INT64_C(0x55555556)) >> 32;
-    double root = pendular_table_number((third << 32) + INT64_C(0x2A9F789300000000));
+    double root = pendular_table_number(third * (INT64_C(1) << 32) + INT64_C(0x2A9F789300000000));
     int i;
     for (i = 0; i < 2; ++i) {
         const double cube = root * root * root;

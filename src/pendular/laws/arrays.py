@@ -111,7 +111,7 @@ def damping_star(
     .. math:: c^* = F_v/(\mu\bar R\,\dot D)
 
     >>> damping_star("pitois2000", [0.001, 0.01, 0.1], 1e-3, 0.0, 0.0, 1.0, 1.0).round(3)
-    array([4.34188e+03, 1.87956e+02, 3.94000e-02])
+    array([4.346538e+03, 1.879560e+02, 4.400000e-02])
     """
     return _evaluate(
         law,

@@ -75,7 +75,7 @@ class Table:
     --------
     >>> table = tabulate(0.35, reduced=(100.0, 200.0), radius_ratio=(1, 2), tolerance=1e-6)
     >>> f"{table.force([0.0, 1e-6, 1e-5], 1e5, 100e-6, 120e-6, 0.0728).round(12)}"
-    '[4.4711833e-05 6.6390830e-06 0.0000000e+00]'
+    '[4.4711833e-05 6.6390820e-06 0.0000000e+00]'
     """
 
     contact_angle: tuple[float, float]
