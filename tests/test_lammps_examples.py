@@ -49,7 +49,7 @@ def test_a_wet_packing_is_stronger_by_the_stress_of_its_bridges(tmp_path, capfd)
         assert 3.0 < bridges < 7.0
         assert stress > 1.8 * float(dry)
         assert gained == pytest.approx(stress - float(dry), abs=1.1)
-        assert 0.6 < ratio < 1.6
+        assert 0.6 < ratio < 1.8  # so few grains shear by chance, from one run to another by a fifth
         assert 0.6 < gained / by_rumpf < 1.6
         if state == "undrained":
             assert first == last  # of the liquid nothing is lost

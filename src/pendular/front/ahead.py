@@ -14,7 +14,7 @@ from ..exact.equations import SUCTION, VOLUME
 from ..exact.sensitivities import rates_of_force
 from ..ground.rows import by_machine_code
 from ..laws import damping_star, force_star, laws, rupture_star, rupture_work_star
-from ..packing.forces import contact_forces
+from ..packing.forces import contact_energy, contact_forces
 from ..packing.lattice import lattice_packing
 from ..packing.wet import wet
 from ..paths import path
@@ -81,7 +81,8 @@ def _ask_table() -> None:
     table.curve(1.8e3, 50e-6, 50e-6, 0.0728).force(_GAPS)
     branches(SUCTION, False, _NOT_FORETOLD, np.array([0.1, 0.5, 1.0]), 1)
     positions = np.array([[0.0, 0.0, 0.0], [100e-6, 0.0, 0.0]])
-    contact_forces(table, np.array([[0, 1]]), positions, np.full(2, 50e-6), 1.8e3, 0.0728)
+    step = contact_forces(table, np.array([[0, 1]]), positions, np.full(2, 50e-6), 1.8e3, 0.0728)
+    contact_energy(table, step.state, positions, np.full(2, 50e-6), 0.0728)
 
 
 def _ask_laws() -> None:
