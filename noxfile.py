@@ -112,12 +112,13 @@ def without_numba(session: nox.Session) -> None:
 @nox.session(venv_backend="uv")
 def wheel(session: nox.Session) -> None:
     """A wheel with machine code, and the source that it is built from, without Numba: kernels, tables and heaps."""
-    made = Path(session.create_tmp())
-    session.run("uv", "build", "--quiet", "--out-dir", made, env={"PENDULAR_MACHINE_CODE": "1"}, external=True)
-    (file,) = made.glob("*.whl")
-    see_size(session, file)
-    session.install(*WITHOUT_NUMBA, *PROJECT["dependency-groups"]["test"])
-    session.install("--no-deps", "--reinstall", str(file))
+    with tempfile.TemporaryDirectory() as folder:
+        made = Path(folder)
+        session.run("uv", "build", "--quiet", "--out-dir", made, env={"PENDULAR_MACHINE_CODE": "1"}, external=True)
+        (file,) = made.glob("*.whl")
+        see_size(session, file)
+        session.install(*WITHOUT_NUMBA, *PROJECT["dependency-groups"]["test"])
+        session.install("--no-deps", "--reinstall", str(file))
     session.run("pytest", *ON_ALL_CORES, "-m", "not long", *(session.posargs or MACHINE))
 
 
