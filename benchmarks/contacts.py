@@ -235,9 +235,7 @@ def measure() -> str:
     def add(name: str, cost: float, wrong: str) -> None:
         rows.append((name, cost, wrong))
 
-    cost = median_ns(
-        lambda: in_chunks(paper_range, COUNT, chunk, FIT, cosine, np.array([suction]), GAMMA, *ends), COUNT
-    )
+    cost = median_ns(lambda: in_chunks(paper_range, COUNT, chunk, FIT, cosine, suction, GAMMA, *ends), COUNT)
     add("closed form of the paper, Eqs. 26, 29-32", cost, error(out))
     cost = median_ns(lambda: in_chunks(willett_range, COUNT, chunk, CONTACT_ANGLE, volume, GAMMA, *ends), COUNT)
     add("Willett's law (constant volume)", cost, "another control")
