@@ -62,7 +62,8 @@ def simulation(packing: Packing, wet: Wet | None, repeats: tuple[int, int, int] 
         region box prism 0 {box} 0 {box} 0 {box} 0 0 0
         create_box 1 box
     """)
-    own = lmp.create_atoms(count, np.arange(1, count + 1), np.ones(count, int), packing.positions.ravel())
+    lmp.create_atoms(count, np.arange(1, count + 1), np.ones(count, int), packing.positions.ravel())
+    own = lmp.extract_setting("nlocal")
     ids = lmp.numpy.extract_atom("id", nelem=own) - 1
     lmp.numpy.extract_atom("radius", nelem=own)[:] = packing.radii[ids]
     lmp.numpy.extract_atom("rmass", nelem=own)[:] = 2500 * 4 / 3 * math.pi * packing.radii[ids] ** 3
