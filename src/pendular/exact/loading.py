@@ -90,26 +90,9 @@ def load_rows(z: Four, system: System, load: Load) -> Rows:
     gap_share = along / (size * size * load.length)
     held_share = across / (size * size * load.unit)
     more_gap, more_held = gap.value - load.separation, held.value - load.value
-    a, b = gap.rates, held.rates
     return Rows(
-        Row(
-            by_gap * more_gap + by_held * more_held,
-            Four(
-                by_gap * a[0] + by_held * b[0],
-                by_gap * a[1] + by_held * b[1],
-                by_gap * a[2] + by_held * b[2],
-                by_gap * a[3] + by_held * b[3],
-            ),
-        ),
-        Row(
-            gap_share * more_gap + held_share * more_held,
-            Four(
-                gap_share * a[0] + held_share * b[0],
-                gap_share * a[1] + held_share * b[1],
-                gap_share * a[2] + held_share * b[2],
-                gap_share * a[3] + held_share * b[3],
-            ),
-        ),
+        Row(by_gap * more_gap + by_held * more_held, moved(scaled(by_gap, gap.rates), by_held, held.rates)),
+        Row(gap_share * more_gap + held_share * more_held, moved(scaled(gap_share, gap.rates), held_share, held.rates)),
     )
 
 

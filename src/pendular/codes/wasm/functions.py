@@ -16,10 +16,10 @@ from ...laws._registry import house_laws
 from ..library import kernels
 from ..library.kernels import BAD_INPUT, FOUND, NO_BRIDGE, PAIRS, STATES, Floats, in_units, is_fit
 
-__all__ = ["functions"]
+__all__ = ["ASKED", "functions"]
 
 _NODE = 4  # numbers of a place on the way along a branch
-_ASKED: tuple[Quantity, ...] = ("force", "rupture")  # of a law
+ASKED: tuple[Quantity, ...] = ("force", "rupture")  # of a law
 
 
 @kernel
@@ -68,7 +68,7 @@ def functions() -> tuple[Function, ...]:
 
 def _laws() -> Iterator[Function]:
     for law in house_laws():
-        for quantity in _ASKED:
+        for quantity in ASKED:
             if (function := law.kernels.get(quantity)) is not None:
                 count = function.__code__.co_argcount
                 yield Function(f"law_{law.name}_{quantity}", function, (Real(),) * count, Real())

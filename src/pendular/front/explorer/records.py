@@ -5,6 +5,7 @@ from typing import Any
 from ... import __version__
 from ...ask import domain, kept_liquids, liquid
 from ...ask.result import FIELDS
+from ...codes.wasm.functions import ASKED
 from ...laws import Law
 from ...laws._registry import house_laws
 from ...laws.ranges import asked_ranges
@@ -13,7 +14,6 @@ from ...show.text import ENDINGS
 __all__ = ["records"]
 
 # What can be drawn against the separation: all that is one number.
-_SHOWN = {"force", "rupture"}  # of what laws give
 PLOTTED = (
     "force",
     "volume",
@@ -42,7 +42,7 @@ def records() -> dict[str, Any]:
             {"name": name, "unit": unit, "meaning": meaning, "endings": ENDINGS.get(name, ())}
             for name, unit, meaning in FIELDS
         ],
-        "laws": [_law(law) for law in house_laws() if _SHOWN & set(law.gives)],
+        "laws": [_law(law) for law in house_laws() if set(ASKED) & set(law.gives)],
         "liquids": [_liquid(one) for one in kept_liquids.kept_liquids()],
         "water": {
             "critical": kept_liquids.WATER_CRITICAL_TEMPERATURE,
@@ -74,7 +74,7 @@ def _law(law: Law) -> dict[str, Any]:
         "name": law.name,
         "title": law.title,
         "control": law.control,
-        "gives": [quantity for quantity in law.gives if quantity in _SHOWN],
+        "gives": [quantity for quantity in law.gives if quantity in ASKED],
         "reference": law.reference,
         "doi": law.doi,
         "ranges": asked_ranges(law),
