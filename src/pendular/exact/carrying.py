@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from ..ground.compile import kernel
 from .algebra import Four, dot
+from .bracket import MOST_NARROWINGS, Bracket, is_narrow, narrowed, secant_of
 from .lines import FREE, PINNED, RECEDING, Line, Lines, has_choice, placed, set_sliding, slid_on, with_limit
 from .loading import CLOSED, Load, Moment, arrived_on, hand_of, moment_after, moment_at, step_on
 from .meridian import ends_of
@@ -28,6 +29,7 @@ _AT_REST = 1e-9  # of a rate that is none
 _MIRRORED = 1e-7  # slope in the middle of a bridge that is symmetric but for what it has gone through
 _SURE_STEP = 1e-4  # below which nothing happens within a step and is over at its end
 _NEARLY_CLOSED = 1e-2
+_VANISHES = 1e-15
 
 
 class Choice(NamedTuple):
@@ -123,26 +125,19 @@ def _occurs(event: int, start: Moment, after: Moment, lines: Lines) -> bool:
 def _locate(event: int, start: Moment, step: float, end: Moment, choice: Choice, load: Load) -> tuple[Moment, float]:
     """The event between the start and the end of a step, by the Illinois rule, and the length to it."""
     lines, hand = choice.lines, choice.hand
-    low, high, at_low, at_high = 0.0, step, _excess(event, start, lines), _excess(event, end, lines)
-    best, length, side = end, step, 0
-    if (at_low > 0.0) == (at_high > 0.0):
+    bracket = Bracket(0.0, step, _excess(event, start, lines), _excess(event, end, lines), 0)
+    best, length = end, step
+    if (bracket.at_low > 0.0) == (bracket.at_high > 0.0):
         return start, 0.0
-    for _ in range(80):
-        middle = low + (high - low) * at_low / (at_low - at_high)
-        if not low < middle < high:
+    for _ in range(MOST_NARROWINGS):
+        middle = secant_of(bracket)
+        if not bracket.low < middle < bracket.high:
             break
         best, _is_met = moment_after(start, middle, lines, load, hand)
         length = middle
         value = _excess(event, best, lines)
-        if (value > 0.0) == (at_low > 0.0):
-            low, at_low = middle, value
-            at_high *= 0.5 if side > 0 else 1.0
-            side = 1
-        else:
-            high, at_high = middle, value
-            at_low *= 0.5 if side < 0 else 1.0
-            side = -1
-        if abs(value) < 1e-15 or high - low < 1e-14 * high:
+        bracket = narrowed(bracket, middle, value)
+        if abs(value) < _VANISHES or is_narrow(bracket):
             break
     return best, length
 

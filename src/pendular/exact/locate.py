@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 from ..ground.compile import kernel
 from .algebra import Four, dot, largest, moved, solve4
+from .bracket import MOST_NARROWINGS, Bracket, is_narrow, narrowed, secant_of
 from .curve import MOST_CORRECTIONS, Curve, Stance, stance_after, stance_at, with_unstable
 from .equations import VOLUME, first_row, held_row, system_at
 
@@ -12,6 +13,7 @@ from .equations import VOLUME, first_row, held_row, system_at
 ARRIVED, FOLD, PITCHFORK, ENDED, LOST = 0, 1, 2, 3, 4
 
 _LAST_CHANGE = 1e-5  # in the last steps to a bridge
+_VANISHES = 1e-14
 
 
 @kernel
@@ -29,26 +31,19 @@ def locate(event: int, start: Stance, low: float, high: float, target: float, cu
     """The event between two lengths of a step, by the Illinois rule, and whether the curve was kept to on the way."""
     first, is_met = (start, True) if low == 0.0 else stance_after(start, low, curve)
     best, is_met_there = stance_after(start, high, curve)
-    at_low, at_high = _excess(event, first, target), _excess(event, best, target)
-    least, side = math.inf, 0
+    bracket = Bracket(low, high, _excess(event, first, target), _excess(event, best, target), 0)
+    least = math.inf
     is_met = is_met and is_met_there
-    for _ in range(80):
-        middle = low + (high - low) * at_low / (at_low - at_high)
-        if not (is_met and low < middle < high):
+    for _ in range(MOST_NARROWINGS):
+        middle = secant_of(bracket)
+        if not (is_met and bracket.low < middle < bracket.high):
             break
         stance, is_met = stance_after(start, middle, curve)
         value = _excess(event, stance, target)
         if abs(value) < least:
             best, least = stance, abs(value)
-        if (value > 0.0) == (at_low > 0.0):
-            low, at_low = middle, value
-            at_high *= 0.5 if side > 0 else 1.0
-            side = 1
-        else:
-            high, at_high = middle, value
-            at_low *= 0.5 if side < 0 else 1.0
-            side = -1
-        if abs(value) < 1e-14 or high - low < 1e-14 * high:
+        bracket = narrowed(bracket, middle, value)
+        if abs(value) < _VANISHES or is_narrow(bracket):
             break
     return best, is_met
 
