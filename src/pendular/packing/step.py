@@ -157,6 +157,20 @@ def look(pairs: Integers, former_pairs: Integers, positions: Floats, radii: Floa
     return Look(separation, former, held, int(kept.sum()), bool(faults.any()))
 
 
+class _Question(NamedTuple):
+    """What a table is asked about contacts that are measured."""
+
+    grid: Grid
+    pairs: Integers
+    former: Integers
+    separation: Floats
+    reach: float
+    given: Floats  # control of new bridges, or of all
+    former_control: Floats
+    radii: Floats
+    tension: Floats
+
+
 class _Rows(NamedTuple):
     """Rows of bridges that are being filled: those of a chunk of contacts lie together, from its offset on."""
 
@@ -184,38 +198,26 @@ def _room() -> _Room:
 
 
 @kernel
-def _ask_at(
-    grid: Grid,
-    pairs: Integers,
-    former: Integers,
-    separation: Floats,
-    reach: float,
-    given: Floats,
-    former_control: Floats,
-    radii: Floats,
-    tension: Floats,
-    rows: _Rows,
-    room: _Room,
-    start: int,
-    stop: int,
-) -> None:
+def _ask_at(asked: _Question, rows: _Rows, room: _Room, start: int, stop: int) -> None:
     """Fill the bridges of a chunk of contacts, and close the gaps of those that break."""
+    pairs, former, separation, radii = asked.pairs, asked.former, asked.separation, asked.radii
     chunk = start // CHUNK
     begin, count = rows.offset[chunk], 0
     for contact in range(start, stop):  # no branches: which have a bridge cannot be foretold
         room.chosen[count] = contact
-        count += (former[contact] >= 0) | (separation[contact] <= reach)
+        count += (former[contact] >= 0) | (separation[contact] <= asked.reach)
     for i in range(count):
         contact, bridge = room.chosen[i], begin + i
         kept, first, second = former[contact], pairs[contact, 0], pairs[contact, 1]
+        is_held = asked.grid.is_volume and kept >= 0
         rows.pairs[bridge, 0], rows.pairs[bridge, 1] = first, second
-        rows.control[bridge] = former_control[kept] if grid.is_volume and kept >= 0 else element(given, contact)
+        rows.control[bridge] = asked.former_control[kept] if is_held else element(asked.given, contact)
         rows.separation[bridge] = separation[contact]
         room.radius1[i], room.radius2[i] = radii[first], radii[second]
     end = begin + count
     radius1, radius2 = room.radius1[:count], room.radius2[:count]
-    operands = rows.separation[begin:end], rows.control[begin:end], radius1, radius2, tension
-    block_range(FORCE, grid, operands, rows.attraction[begin:end], room.numbers, room.cells, 0, count)
+    operands = rows.separation[begin:end], rows.control[begin:end], radius1, radius2, asked.tension
+    block_range(FORCE, asked.grid, operands, rows.attraction[begin:end], room.numbers, room.cells, 0, count)
     standing = begin
     for bridge in range(begin, end):
         attraction = rows.attraction[bridge]
@@ -231,28 +233,10 @@ def _ask_at(
 
 
 @entry(plain_cost=1e-4, patience=1.0)
-def _ask_range(
-    grid: Grid,
-    pairs: Integers,
-    former: Integers,
-    separation: Floats,
-    reach: float,
-    given: Floats,
-    former_control: Floats,
-    radii: Floats,
-    tension: Floats,
-    rows: _Rows,
-    room: _Room,
-    start: int,
-    stop: int,
-) -> None:
+def _ask_range(asked: _Question, rows: _Rows, room: _Room, start: int, stop: int) -> None:
     """Fill the bridges of contacts, chunk by chunk."""
     for begin in range(start, stop, CHUNK):
-        end = min(begin + CHUNK, stop)
-        _ask_at(
-            grid, pairs, former, separation, reach, given, former_control, radii, tension, rows, room,
-            begin, end,
-        )  # fmt: skip
+        _ask_at(asked, rows, room, begin, min(begin + CHUNK, stop))
 
 
 def ask(
@@ -272,11 +256,10 @@ def ask(
         np.empty((most, 2), np.int64), np.empty(most), np.empty(most), np.empty(most), np.empty(most),
         offset, np.zeros_like(offset),
     )  # fmt: skip
-    over_rows(
-        _ask_range, len(pairs), CHUNK,
-        grid, pairs, seen.former, seen.separation, reach, given, former_control, radii,
-        np.array([tension]), rows, Own(_room),
-    )  # fmt: skip
+    asked = _Question(
+        grid, pairs, seen.former, seen.separation, reach, given, former_control, radii, np.array([tension])
+    )
+    over_rows(_ask_range, len(pairs), CHUNK, asked, rows, Own(_room))
     return Bridges(
         _closed(rows.pairs, rows), _closed(rows.control, rows), _closed(rows.separation, rows),
         _closed(rows.attraction, rows), _closed(rows.pull, rows),
