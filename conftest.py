@@ -65,7 +65,7 @@ def pytest_configure(config: pytest.Config) -> None:
         return nullcontext()
 
     native.notices.append(notice)
-    for _ in islice(compile_ahead(), 4):  # the others are small
+    for _ in islice(compile_ahead(), 5):  # the others are small
         pass
     native.notices.remove(notice)
 

@@ -7,9 +7,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..exact.batch import FAILED, FOUND, NO_BRIDGE
 from ..exact.equations import SUCTION, VOLUME
-from ..exact.shapes.answers import SPILLED, Answer, answer_to, curve_of
-from ..exact.shapes.pieces import Body, body_of_sphere, is_flat
-from ..exact.shapes.search import Question
+from ..exact.shapes.answers import SPILLED
+from ..exact.shapes.pieces import is_flat, solid_from
+from ..exact.shapes.rows import COLUMNS, answer, draw
+from ..exact.solids.surface import NO_PROFILE, SPHERE, Profile
 from ..exact.state import State
 from ..ground.check import broadcast, in_range, plain, quantity
 from ..ground.warn import warn
@@ -17,11 +18,10 @@ from .liquid import Liquid
 from .pair import Pair
 from .problem import ASKED, LIMITS, Asked, Control, ConvergenceWarning, Limit, Problem, restore
 from .result import Bridge
-from .shapes import Shape
+from .shapes import Shape, Told
 
 Floats = NDArray[np.float64]
-
-_NOTHING = np.full(len(State._fields), np.nan)
+Statuses = NDArray[np.int8]
 
 
 def bridge_by_shape(
@@ -31,24 +31,24 @@ def bridge_by_shape(
     if separation is None and asked in ("stable", "unstable"):
         raise ValueError("separation: None given; a separation is needed")
     problem, questions = _reduced(pair, control, liquid, separation)
-    answers = [
-        answer_to(question, ASKED[asked], float(gap), LIMITS[limit])
-        for question, gap in zip(questions, problem.rows[:, 0], strict=True)
-    ]
+    answers = answer(ASKED[asked], problem.held, questions, _profiles_of(pair), LIMITS[limit])
     given = problem.separation if asked in ("stable", "unstable") else None
-    return _restored(pair, problem, answers, given)
+    return _restored(pair, problem, *answers, given)
 
 
 def curve_by_shape(pair: Pair, control: Control, liquid: Liquid, points: int, limit: Limit) -> Bridge:
     """Whole curves, of so many points each."""
     problem, questions = _reduced(pair, control, liquid, None)
-    answers = [answer for question in questions for answer in curve_of(question, LIMITS[limit], points)]
-    return _restored(pair, problem, answers, None, (points,))
+    states, statuses = draw(problem.held, questions, _profiles_of(pair), points, LIMITS[limit])
+    return _restored(pair, problem, states.reshape(-1, len(State._fields)), np.ravel(statuses), None, (points,))
 
 
-def _reduced(
-    pair: Pair, control: Control, liquid: Liquid, separation: ArrayLike | None
-) -> tuple[Problem, list[Question]]:
+def _profiles_of(pair: Pair) -> tuple[Profile, Profile]:
+    first, second = (solid.profile if isinstance(solid, Shape) else NO_PROFILE for solid in pair.solids)
+    return first, second
+
+
+def _reduced(pair: Pair, control: Control, liquid: Liquid, separation: ArrayLike | None) -> tuple[Problem, Floats]:
     """Rows of a problem in a unit of length each, and what is asked of the solver."""
     given = {} if separation is None else {"separation": quantity("separation", separation, "m")}
     given[control.name] = control.value
@@ -56,60 +56,77 @@ def _reduced(
     given |= {f"contact_angle[{i}]": angle for i, angle in enumerate(pair.contact_angles)}
     arrays = dict(zip(given, broadcast(**given), strict=True))
     shape = arrays[control.name].shape
-    columns = {name: np.ravel(array).tolist() for name, array in arrays.items()}
-    count = len(columns[control.name])
+    columns = {name: np.ravel(array) for name, array in arrays.items()}
+    value = columns[control.name]
+    gap = columns.get("separation", np.full(value.size, np.nan))
+    told = [
+        solid.told if isinstance(solid, Shape) else Told(SPHERE, columns[f"radius[{i}]"], 0.0)
+        for i, solid in enumerate(pair.solids)
+    ]
+    if separation is not None:
+        _refuse_overlap(gap, told)
     held = VOLUME if control.name == "volume" else SUCTION
-    rows, units, questions = np.empty((count, 6)), np.empty(count), []
-    for i in range(count):
-        gap, value = columns["separation"][i] if separation is not None else np.nan, columns[control.name][i]
-        solids = [s if isinstance(s, Shape) else columns[f"radius[{k}]"][i] for k, s in enumerate(pair.solids)]
-        angles = [columns[f"contact_angle[{k}]"][i] for k in (0, 1)]
-        size = _size(solids)
-        unit = _unit(held, value, liquid.surface_tension, size, gap)
-        bodies = [_body(solid, unit, angle) for solid, angle in zip(solids, angles, strict=True)]
-        if separation is not None:
-            _refuse_overlap(gap, bodies)
+    sizes = [solid.size if isinstance(solid, Shape) else one.size for solid, one in zip(pair.solids, told, strict=True)]
+    size = _smaller(*sizes)
+    unit = _unit(held, value, liquid.surface_tension, size, gap)
+    with np.errstate(divide="ignore", over="ignore"):
         reduced = value / unit**3 if held == VOLUME else value * unit / liquid.surface_tension
-        curvatures = [np.nan if isinstance(solid, Shape) else unit / solid for solid in solids]
-        rows[i] = gap / unit, reduced, curvatures[0], angles[0], curvatures[1], angles[1]
-        units[i] = unit
-        kept = reduced / np.pi if held == VOLUME else reduced
-        questions.append(Question(bodies[0], bodies[1], held, kept, size / unit))
+    angles = [columns[f"contact_angle[{i}]"] for i in (0, 1)]
+    rows, questions = np.empty((value.size, 6)), np.empty((value.size, COLUMNS))
+    both = [column for one, angle in zip(told, angles, strict=True) for column in _columns(one, unit, angle)]
+    for i, column in enumerate((gap / unit, reduced, size / unit, *both)):
+        questions[:, i] = column
+    curvatures = [
+        np.nan if isinstance(solid, Shape) else unit / one.size for solid, one in zip(pair.solids, told, strict=True)
+    ]
+    for i, column in enumerate((gap / unit, reduced, curvatures[0], angles[0], curvatures[1], angles[1])):
+        rows[:, i] = column
     asked = arrays["separation"] if separation is not None else np.full(shape, np.nan)
-    return Problem(rows, held, asked, units, liquid.surface_tension, shape), questions
+    return Problem(rows, held, asked, unit, liquid.surface_tension, shape), questions
 
 
-def _size(solids: list[Shape | float]) -> float:
+def _columns(told: Told, unit: Floats, angle: Floats) -> tuple[float, Floats, float, Floats]:
+    """A solid in rows of questions."""
+    return float(told.kind), told.size / unit, told.half_angle, angle
+
+
+def _smaller(first: ArrayLike, second: ArrayLike) -> Floats:
     """The smaller of the lengths of two solids, [m]; NaN if they have none."""
-    sizes = [solid.size if isinstance(solid, Shape) else solid for solid in solids]
-    return min((size for size in sizes if 0.0 < size < np.inf), default=np.nan)
+    smaller: Floats = np.fmin(*(np.where(np.isinf(size), np.nan, size) for size in (first, second)))
+    return smaller
 
 
-def _unit(held: int, value: float, tension: float, size: float, separation: float) -> float:
+def _unit(held: int, value: Floats, tension: float, size: Floats, separation: Floats) -> Floats:
     """Unit of length: of a volume its cube root, of a pressure the radius of curvature, else what there is."""
     if held == VOLUME:
-        return float(np.cbrt(value))
-    lengths = [tension / abs(value) if value != 0.0 else np.nan, size, separation]
-    return next((length for length in lengths if length > 0.0), 1.0)
+        return np.cbrt(value)
+    with np.errstate(divide="ignore"):
+        own = np.where(value == 0.0, np.nan, tension / np.abs(value))
+    unit: Floats = np.ones(value.shape)
+    for length in (separation, size, own):
+        unit = np.where(length > 0.0, length, unit)
+    return unit
 
 
-def _body(solid: Shape | float, unit: float, angle: float) -> Body:
-    return solid.body(unit, angle) if isinstance(solid, Shape) else body_of_sphere(solid / unit, angle)
-
-
-def _refuse_overlap(separation: float, bodies: list[Body]) -> None:
-    if all(map(is_flat, bodies)):
+def _refuse_overlap(separation: Floats, solids: list[Told]) -> None:
+    first, second = (
+        is_flat(solid_from(*told, 0.0, NO_PROFILE)) if told.kind != SPHERE else np.isinf(told.size) for told in solids
+    )
+    if np.any(are_flat := np.broadcast_to(first & second, separation.shape)):
         reason = "two flat ends in contact leave no room for liquid"
-        in_range("separation", np.asarray(separation), 0.0, brackets="()", unit="m", low_hint=reason)
-    in_range("separation", np.asarray(separation), 0.0, brackets="[)", unit="m")
+        in_range("separation", separation[are_flat], 0.0, brackets="()", unit="m", low_hint=reason)
+    in_range("separation", separation, 0.0, brackets="[)", unit="m")
 
 
 def _restored(
-    pair: Pair, problem: Problem, answers: list[Answer], separation: Floats | None, extra: tuple[int, ...] = ()
+    pair: Pair,
+    problem: Problem,
+    states: Floats,
+    statuses: Statuses,
+    separation: Floats | None,
+    extra: tuple[int, ...] = (),
 ) -> Bridge:
     """The answers as a bridge in SI units."""
-    states = np.array([_NOTHING if answer.state is None else answer.state for answer in answers])
-    statuses = np.array([answer.status for answer in answers], np.int8)
     _warn_where(
         statuses == SPILLED, "would run over the edge of a disc, or beyond the end of a profile, which is not answered"
     )

@@ -4,12 +4,13 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..exact.shapes.pieces import Body, body_of_cone, body_of_disc, body_of_drawn, body_of_paraboloid
-from ..exact.solids.drawn import Spline
+from ..exact.solids.drawn import profile_of
+from ..exact.solids.surface import CONE, DRAWN, EDGE, NO_PROFILE, PARABOLOID, RING, Profile
 from ..ground.check import in_range, quantity, scalar
 from .mesh import SHOWN_OF_A_PLANE, Outline, steps
 
@@ -21,17 +22,31 @@ _SMOOTH = 1e-3  # slope of a spline at the axis, over the steepest, below which 
 _SLACK = 1e-6  # of its second derivative, over the steepest slope and its reach
 
 
+class Told(NamedTuple):
+    """A solid as the solver is told of it, but for its contact angle."""
+
+    kind: int
+    size: Any  # a radius, [m]: that of its tip, where it has one; an array of those of spheres
+    half_angle: float  # of a cone, [rad]
+
+
 class Shape(ABC):
     """A solid of revolution with its tip on the axis, convex."""
 
     @property
     @abstractmethod
+    def told(self) -> Told:
+        """What the solver is told of it."""
+
+    @property
+    def profile(self) -> Profile:
+        """Rows of its spline, where it is drawn, [m]."""
+        return NO_PROFILE
+
+    @property
+    @abstractmethod
     def size(self) -> float:
         """A length of the solid, [m]; NaN if it has none."""
-
-    @abstractmethod
-    def body(self, unit: float, contact_angle: float) -> Body:
-        """Return its pieces in a unit of length, with a contact angle."""
 
     @abstractmethod
     def depth(self, radius: Floats) -> Floats:
@@ -96,9 +111,10 @@ class Cone(Shape):
         """Radius of its tip, [m]; NaN if it is sharp."""
         return self.tip_radius or math.nan
 
-    def body(self, unit: float, contact_angle: float) -> Body:
-        """Return its pieces in a unit of length, with a contact angle."""
-        return body_of_cone(self.half_angle, self.tip_radius / unit, contact_angle)
+    @property
+    def told(self) -> Told:
+        """What the solver is told of it."""
+        return Told(CONE, self.tip_radius, self.half_angle)
 
     def depth(self, radius: Floats) -> Floats:
         """Depth of its surface behind the tip at distances from the axis, [m]."""
@@ -142,9 +158,10 @@ class Paraboloid(Shape):
         """Radius of curvature at the tip, [m]."""
         return self.tip_radius
 
-    def body(self, unit: float, contact_angle: float) -> Body:
-        """Return its one piece in a unit of length, with a contact angle."""
-        return body_of_paraboloid(self.tip_radius / unit, contact_angle)
+    @property
+    def told(self) -> Told:
+        """What the solver is told of it."""
+        return Told(PARABOLOID, self.tip_radius, 0.0)
 
     def depth(self, radius: Floats) -> Floats:
         """Depth of its surface behind the tip at distances from the axis, [m]."""
@@ -196,9 +213,10 @@ class Disc(Shape):
         """Radius of the disc, [m]."""
         return self.radius
 
-    def body(self, unit: float, contact_angle: float) -> Body:
-        """Return its pieces in a unit of length, with a contact angle."""
-        return body_of_disc(self.radius / unit, bool(self.pinned), contact_angle)
+    @property
+    def told(self) -> Told:
+        """What the solver is told of it."""
+        return Told(RING if self.pinned else EDGE, self.radius, 0.0)
 
     def depth(self, radius: Floats) -> Floats:
         """Depth of its face, 0."""
@@ -269,22 +287,29 @@ class Convex(Shape):
         if given.shape != at.shape:
             raise ValueError(f"depth: an array of shape {given.shape} is not one depth for each of {at.size} radii")
         self._spline = _spline_through(at, given)
+        self._profile = profile_of(self._spline.x, self._spline.c)
 
     def __repr__(self) -> str:
-        return f"Convex({self._spline.knots.size} points up to {self._spline.knots[-1]:g} m)"
+        return f"Convex({len(self._profile)} points up to {self.size:g} m)"
 
     @property
     def size(self) -> float:
         """The last of its radii, [m]."""
-        return float(self._spline.knots[-1])
+        return float(self._profile[-1, 0])
 
-    def body(self, unit: float, contact_angle: float) -> Body:
-        """Return its one piece in a unit of length, with a contact angle."""
-        return body_of_drawn(self._spline, unit, contact_angle)
+    @property
+    def told(self) -> Told:
+        """What the solver is told of it: that its unit of length is a metre."""
+        return Told(DRAWN, 1.0, 0.0)
+
+    @property
+    def profile(self) -> Profile:
+        """Rows of its spline, [m]."""
+        return self._profile
 
     def depth(self, radius: Floats) -> Floats:
         """Depth of its surface behind the tip at distances from the axis, [m]; beyond its end, that at the end."""
-        found: Floats = self._spline.depth(np.minimum(radius, self.size))
+        found: Floats = self._spline(np.minimum(radius, self.size))
         return found
 
     def rings(self, radius: float, wetted: float, around: int) -> Outline:
@@ -299,7 +324,7 @@ class Convex(Shape):
         return super().outline(np.minimum(reach, self.size), points)
 
 
-def _spline_through(radius: Floats, depth: Floats) -> Spline:
+def _spline_through(radius: Floats, depth: Floats) -> Any:
     """Cubic spline of a profile, which has to be convex."""
     try:
         from scipy.interpolate import CubicSpline
@@ -312,11 +337,9 @@ def _spline_through(radius: Floats, depth: Floats) -> Spline:
         raise ValueError(f"depth: comes back towards the tip at radius 0 m, where its slope is {at_axis:.3g}")
     if at_axis < _SMOOTH * steepest:
         spline = CubicSpline(radius, depth - depth[0], bc_type=((1, 0.0), "not-a-knot"))
-    slope, bend = spline.derivative(), spline.derivative(2)
-    is_concave = bend(radius) * radius[-1] < -_SLACK * steepest
+    is_concave = spline(radius, 2) * radius[-1] < -_SLACK * steepest
     if np.any(is_concave):
         raise ValueError(
             f"depth: is concave at radius {radius[np.argmax(is_concave)]:.6g} m; smooth it, or leave it out"
         )
-    integral = spline.antiderivative()
-    return Spline(radius, spline, slope, bend, integral, integral.antiderivative())
+    return spline

@@ -8,6 +8,7 @@ import numpy as np
 from ..ask.face import bridge, curve, rupture
 from ..ask.liquid import Liquid
 from ..ask.pair import Pair
+from ..ask.shapes import Cone
 from ..exact.batch import STABLE, answer
 from ..exact.branch import branches
 from ..exact.equations import SUCTION, VOLUME
@@ -73,6 +74,13 @@ def _ask_filling_angle() -> None:
     bridge(_PAIR, half_filling_angle=np.array([0.2, 0.3]), suction=20e3, liquid=_LIQUID)
 
 
+def _ask_solids() -> None:
+    tip = Pair((Cone(1.0, 10e-6), np.inf), 0.35)
+    bridge(tip, _GAPS, volume=1e-15, liquid=_LIQUID)
+    rupture(tip, volume=1e-15, liquid=_LIQUID)
+    curve(tip, volume=1e-15, liquid=_LIQUID, points=5)
+
+
 def _ask_table() -> None:
     table = tabulate(0.35, reduced=(1.0, 1.5))
     for gaps in (0.0, _GAPS):  # by rows and by blocks
@@ -115,6 +123,7 @@ QUESTIONS: dict[str, Callable[[], None]] = {
     "bridges and rupture": _ask_bridges,
     "curves": _ask_curve,
     "bridges of a half-filling angle": _ask_filling_angle,
+    "other solids": _ask_solids,
     "tables": _ask_table,
     "laws": _ask_laws,
     "heaps": _ask_heap,

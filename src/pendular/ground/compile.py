@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 __all__ = [
     "Kernel", "compiled", "constants", "fastmath_of", "has_compiler", "is_kernel", "kernel", "kernel_written_in",
-    "let_numba_call_kernels", "rebound", "summing_kernel",
+    "let_numba_call_kernels", "marked_as", "rebound", "summing_kernel", "tried",
 ]  # fmt: skip
 
 Kernel = TypeVar("Kernel", bound=Callable[..., Any])
@@ -27,6 +27,8 @@ _ANY_ORDER = frozenset({"reassoc", "contract"})
 
 _fastmath: dict[Any, frozenset[str]] = {}  # of each kernel
 _writers: dict[Any, str] = {}  # of the compiled form of a few
+_copies: set[Any] = set()  # kernels whose file does not tell what they call
+_tried: dict[Any, Any] = {}  # what is tried, by what tries it
 _typing_contexts: list[Any] = []  # of Numba, that know the kernels
 
 
@@ -48,6 +50,29 @@ def kernel_written_in(module: str) -> Callable[[Kernel], Kernel]:
         return kernel(function)
 
     return mark
+
+
+def marked_as(original: Callable[..., Any], copy: Kernel) -> Kernel:
+    """Mark a copy of a kernel that calls others than the kernel itself."""
+    _copies.add(copy)
+    _fastmath[copy] = _fastmath[original]
+    return copy
+
+
+def tried(function: Kernel, otherwise: Any) -> Kernel:
+    """A kernel that gives something else where plain Python finds no answer, as to 1/0.
+
+    Compiled code gives infinity or NaN in its place, and goes on.
+    """
+
+    def attempt(*arguments: Any) -> Any:
+        try:
+            return function(*arguments)
+        except (ArithmeticError, ValueError):
+            return otherwise
+
+    _tried[attempt] = function
+    return attempt  # type: ignore[return-value]
 
 
 def _marked(function: Kernel, fastmath: frozenset[str]) -> Kernel:
@@ -91,7 +116,7 @@ def compiled(function: Callable[..., Any]) -> Any:
 
     source = rebound(function, compiled)
     dispatcher = njit(error_model="numpy", nogil=True, fastmath=fastmath_of(function))(source)
-    if dispatcher is not source:  # it is with the compiler off
+    if dispatcher is not source and function not in _copies:  # it is with the compiler off
         keep_on_disk(dispatcher)
     return dispatcher
 
@@ -124,6 +149,8 @@ class _Scope(dict[str, Any]):
 def _form(value: Any, into: Callable[[Any], Any]) -> Any:
     if isinstance(value, _Constants):
         return np.array(value)
+    if isinstance(value, FunctionType) and value in _tried:
+        value = _tried[value]
     if is_kernel(value) and value not in _writers:
         return into(value)
     if isinstance(value, ModuleType) and value.__name__.startswith(f"{__package__.partition('.')[0]}."):

@@ -5,15 +5,16 @@ from functools import cache
 from types import FunctionType
 from typing import Any
 
-from ...ground.compile import is_kernel
+from ...ground.compile import is_kernel, kernel, marked_as
 from .. import clearance, equations, stability, state
 from ..algebra import Four
 from ..equations import Held, System
 from ..solids import sphere
 from . import surfaces
-from .side import Sided, has_side, on_side
+from .side import AnySystem, for_ladder, has_side, off_side, on_side
 
 
+@kernel
 def _is_clearly_outside(_system: Any, _held: Any, least: float, most: float, force: float, curvature: float) -> bool:
     """Whether a meridian runs forward and is nowhere bent outwards, so that no convex solid can be met again."""
     half = 0.5 * curvature
@@ -22,21 +23,22 @@ def _is_clearly_outside(_system: Any, _held: Any, least: float, most: float, for
     return min(at_least, at_most) > 0.0 and bend >= 0.0
 
 
+@kernel
 def _sideways_later(_force: float, _held: Any) -> float:
     return 1.0
 
 
-def _system_at(z: Four, held: Held, fine: bool, with_volume: bool) -> System:
+@kernel
+def _system_at(z: Four, held: Held, fine: bool, with_volume: bool) -> AnySystem:
     """All equations; on the side of a cylinder the volume is always among them."""
-    if has_side(held):
-        return on_side(_copied(equations.system_at)(z, held, fine, True), held)
-    system: System = _copied(equations.system_at)(z, held, fine, with_volume)
-    return system
+    is_on_side = has_side(held)
+    system = system_as_if_liquid(z, held, fine, with_volume or is_on_side)
+    return on_side(system, held) if is_on_side else off_side(system)
 
 
-def _ladder_at(z: Four, system: System) -> stability.Ladder:
-    ladder = system.ladder if isinstance(system, Sided) else system
-    return stability.ladder_at(z, ladder)
+@kernel
+def _ladder_at(z: Four, system: AnySystem) -> stability.Ladder:
+    return stability.ladder_at(z, for_ladder(system))
 
 
 _ANSWERS: dict[Any, Callable[..., Any]] = {
@@ -57,8 +59,16 @@ def retold(kernel: Callable[..., Any]) -> Callable[..., Any]:
 
 @cache
 def _copied(kernel: Callable[..., Any]) -> Callable[..., Any]:
-    """A kernel in which all that it calls is retold."""
+    """A copy of a kernel in which all that it calls is retold; one that asks nothing of a solid stays as it is."""
     assert isinstance(kernel, FunctionType)
-    known, names = kernel.__globals__, kernel.__code__.co_names
-    scope = {name: retold(known[name]) if is_kernel(known[name]) else known[name] for name in names if name in known}
-    return FunctionType(kernel.__code__, scope, kernel.__name__, kernel.__defaults__, kernel.__closure__)
+    known = kernel.__globals__
+    names = [name for name in kernel.__code__.co_names if name in known]
+    scope = {name: retold(known[name]) if is_kernel(known[name]) else known[name] for name in names}
+    if all(scope[name] is known[name] for name in names):
+        return kernel
+    copy = FunctionType(kernel.__code__, scope, kernel.__name__, kernel.__defaults__, kernel.__closure__)
+    copy.__annotations__ = kernel.__annotations__
+    return marked_as(kernel, copy)
+
+
+system_as_if_liquid: Callable[..., System] = _copied(equations.system_at)  # that behind a side is counted with it

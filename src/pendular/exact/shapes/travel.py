@@ -11,192 +11,271 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...ground.root import root_between
+from ...ground.compile import kernel
+from .. import curve, follow
 from ..algebra import Four, moved, unit_vector
-from ..curve import Curve, Stance, corrected, stance_after, stance_at
+from ..curve import Curve, Stance
 from ..equations import VOLUME
-from ..follow import FOLDS, NOTHING, Walk, beyond, follow
+from ..follow import FOLDS, NOTHING, Walk, recorded
 from ..locate import ARRIVED, FOLD, LOST, PITCHFORK
-from ..solids.edge import Side
+from ..solids.surface import SIDE
+from .pieces import piece_of, pieces_of
 from .retold import retold
-from .search import Found, Indices, Question, curve_through, held_on, is_symmetric, pieces_on, rooms_at
+from .search import On, Question, held_on, is_symmetric, least_room, may_run_off, rooms_at
 
 Nodes = NDArray[np.float64]
 
 OFF = 5  # event: a contact circle runs off the last piece of its solid
 
-_MOST_NODES = 1200
 _MOST_PIECES = 12
 _THERE = 1e-13  # miss of a separation, over ℓ, that is none
 _PROBE = 1e-4  # way from a corner to where it is certain what follows
 _AT_CORNER = 1e-9  # room that is none
 _PAST = -1e-9  # room that is lost for certain
+_NARROW = 1e-14  # room, and part of a step, within which a corner lies
+_MOST_ROUNDS = 100
+_FIRST, _SECOND, _SYMMETRIC, _HAND, _LEG = 4, 5, 6, 7, 8  # columns of a node behind its arc
+
+_stance_at = retold(curve.stance_at)
+_stance_after = retold(curve.stance_after)
+_corrected = retold(curve.corrected)
+_follow = retold(follow.follow)
+_beyond = retold(follow.beyond)
 
 
-class Leg(NamedTuple):
-    """A stretch of a journey on one pair of pieces."""
+class Track(NamedTuple):
+    """A curve of bridges on a pair of pieces, and how it is followed."""
 
-    on: Indices
-    curve: Curve
-    nodes: Nodes
+    on: On
+    symmetric: bool
+    hand: float
 
 
 class Journey(NamedTuple):
     """A way along a curve, and where it ended."""
 
-    legs: list[Leg]
     event: int
     stance: Stance
-    curve: Curve
-    on: Indices
+    track: Track
     going: float  # sign of the slope before the end
     is_corner: bool  # whether it ended at a corner
-    ahead: tuple[Stance, Curve, Indices] | None  # at a corner: what lies behind it
+    goes_on: bool  # whether it is known what lies behind that corner:
+    ahead: Stance
+    ahead_track: Track
+    nodes: int  # recorded
 
 
-def set_out(question: Question, found: Found, going: float) -> tuple[Stance, Curve]:
+class _Turn(NamedTuple):
+    """What follows at a corner."""
+
+    goes_on: bool
+    event: int
+    stance: Stance
+    track: Track
+
+
+@kernel
+def nowhere() -> Journey:
+    """A way that leads nowhere."""
+    no_arc = Four(math.nan, math.nan, math.nan, math.nan)
+    stance, track = Stance(no_arc, no_arc, math.nan, math.nan, 0, 1.0, -1.0), Track(On(0, 0), False, 1.0)
+    return Journey(LOST, stance, track, 1.0, False, False, stance, track, 0)
+
+
+@kernel
+def curve_on(question: Question, track: Track) -> Curve:
+    """The curve of a track."""
+    return Curve(held_on(question, track.on), track.symmetric, track.hand)
+
+
+@kernel
+def set_out(question: Question, z: Four, on: On, going: float) -> tuple[Stance, Track]:
     """A bridge, and the curve through it followed so that the separation grows (going > 0) or falls at first."""
-    curve = curve_through(question, found)
-    stance = retold(stance_at)(found.z, curve)
+    track = Track(on, is_symmetric(question, z, on), 1.0)
+    stance = _stance_at(z, curve_on(question, track))
     if stance.slope * going < 0.0:
-        curve = Curve(curve.held, curve.symmetric, -1.0)
-        stance = retold(stance_at)(found.z, curve)
-    return stance, curve
+        track = Track(on, track.symmetric, -1.0)
+        stance = _stance_at(z, curve_on(question, track))
+    return stance, track
 
 
-def travel(question: Question, start: tuple[Stance, Curve, Indices], target: float, stops_at: int) -> Journey:
+@kernel
+def travel(question: Question, stance: Stance, track: Track, target: float, stops_at: int, nodes: Nodes) -> Journey:
     """Follow a curve until D meets its target, or what it stops at, or it ends."""
-    stance, curve, on = start
     if abs(stance.separation - target) <= _THERE * math.exp(stance.z.log_length):
-        return Journey([], ARRIVED, stance, curve, on, 1.0, False, None)
-    legs: list[Leg] = []
-    for _ in range(_MOST_PIECES):
-        nodes = np.empty((_MOST_NODES, 4))
-        walk = retold(follow)(stance, curve, target, stops_at, nodes)
-        cut = _first_off(question, on, nodes[: walk.nodes])
-        if cut is None:
-            legs.append(Leg(on, curve, nodes[: walk.nodes]))
-            return Journey(legs, walk.event, walk.stance, walk.curve, on, walk.going, False, None)
-        before, after = _four(nodes[cut - 1]), _four(nodes[cut])
-        z = _corner(question, on, before, after, curve)
-        nodes[cut] = z
-        legs.append(Leg(on, curve, nodes[: cut + 1]))
-        last = _just_before(z, curve)
-        turned = _round_corner(question, on, last, curve)
-        if turned is None or turned[0] == LOST:
-            return Journey(legs, OFF if turned is None else LOST, last, curve, on, _sign(last.slope), True, None)
-        event, onward = turned
-        if event != ARRIVED and stops_at != NOTHING and (stops_at != FOLDS or event == FOLD):
-            return Journey(legs, event, last, curve, on, _sign(last.slope), True, onward)
-        stance, curve, on = onward
-    return Journey(legs, LOST, stance, curve, on, 1.0, False, None)
+        return Journey(ARRIVED, stance, track, 1.0, False, False, stance, track, 0)
+    count = 0
+    for leg in range(_MOST_PIECES):
+        path = curve_on(question, track)
+        walk = _follow(stance, path, target, stops_at, nodes[count:])
+        end = count + walk.nodes
+        cut = _first_off(question, track.on, nodes, count, end)
+        if cut == end:
+            _mark(nodes, count, end, track, leg)
+            return Journey(walk.event, walk.stance, track, walk.going, False, False, walk.stance, track, end)
+        z = _corner(question, track.on, recorded(nodes, cut - 1), recorded(nodes, cut), path)
+        for k in range(4):
+            nodes[cut, k] = z[k]
+        _mark(nodes, count, cut + 1, track, leg)
+        count = cut + 1
+        last = _just_before(z, path)
+        turn = _round_corner(question, track, last)
+        going = 1.0 if last.slope > 0.0 else -1.0
+        if turn.event == OFF or turn.event == LOST:
+            return Journey(turn.event, last, track, going, True, False, last, track, count)
+        if turn.event != ARRIVED and stops_at != NOTHING and (stops_at != FOLDS or turn.event == FOLD):
+            return Journey(turn.event, last, track, going, True, True, turn.stance, turn.track, count)
+        stance, track = turn.stance, turn.track
+    return Journey(LOST, stance, track, 1.0, False, False, stance, track, count)
 
 
-def go_beyond(question: Question, journey: Journey) -> tuple[Stance, Curve, Indices]:
+@kernel
+def go_beyond(question: Question, journey: Journey) -> tuple[Stance, Track]:
     """Where a curve goes on after the end of a branch."""
-    if journey.ahead is not None:
-        return journey.ahead
-    walk = Walk(journey.event, journey.stance, journey.curve, 0, journey.going)
-    stance, curve = retold(beyond)(walk)
-    return stance, curve, journey.on
+    if journey.goes_on:
+        return journey.ahead, journey.ahead_track
+    walk = Walk(journey.event, journey.stance, curve_on(question, journey.track), 0, journey.going)
+    stance, path = _beyond(walk)
+    return stance, Track(journey.track.on, path.symmetric, path.hand)
 
 
-def _sign(value: float) -> float:
-    return 1.0 if value > 0.0 else -1.0
+@kernel
+def _mark(nodes: Nodes, start: int, stop: int, track: Track, leg: int) -> None:
+    """Tell of nodes on which pieces they lie, and how they are followed."""
+    for i in range(start, stop):
+        nodes[i, _FIRST], nodes[i, _SECOND] = track.on.first, track.on.second
+        nodes[i, _SYMMETRIC], nodes[i, _HAND] = 1.0 if track.symmetric else 0.0, track.hand
+        nodes[i, _LEG] = leg
 
 
-def _four(row: Nodes) -> Four:
-    return Four(*row.tolist())
+@kernel
+def track_in(nodes: Nodes, i: int) -> Track:
+    """How a node is followed."""
+    on = On(int(nodes[i, _FIRST]), int(nodes[i, _SECOND]))
+    return Track(on, nodes[i, _SYMMETRIC] > 0.0, float(nodes[i, _HAND]))
 
 
-def _first_off(question: Question, on: Indices, nodes: Nodes) -> int | None:
-    """The first of the nodes, after that at the start, with a contact circle that lies past the end of its piece."""
-    if all(math.isinf(room) for room in rooms_at(question, on, _four(nodes[0]))):
-        return None
-    for i in range(1, len(nodes)):
-        if min(rooms_at(question, on, _four(nodes[i]))) < _PAST:
-            return i
-    return None
+@kernel
+def is_step(nodes: Nodes, i: int) -> bool:
+    """Whether a node and the next are neighbours on one pair of pieces."""
+    return bool(nodes[i, _LEG] == nodes[i + 1, _LEG])
 
 
-def _corner(question: Question, on: Indices, before: Four, after: Four, curve: Curve) -> Four:
-    """The bridge between two others at which a contact circle comes to the end of its piece."""
+@kernel
+def _first_off(question: Question, on: On, nodes: Nodes, start: int, stop: int) -> int:
+    """The first of some nodes, after that at the start, with a contact circle past the end of its piece; else stop."""
+    if may_run_off(question, on):
+        for i in range(start + 1, stop):
+            if least_room(question, on, recorded(nodes, i)) < _PAST:
+                return i
+    return stop
+
+
+@kernel
+def _corner(question: Question, on: On, before: Four, after: Four, path: Curve) -> Four:
+    """The bridge between two others at which a contact circle comes to the end of its piece, by the Illinois rule."""
     way = moved(after, -1.0, before)
     along = unit_vector(way)
-
-    def at(share: float) -> Four:
-        z: Four = retold(corrected)(moved(before, share, way), curve, along)[0]
-        return z
-
-    def room(share: float) -> float:
-        return min(rooms_at(question, on, at(share)))
-
-    if room(0.0) <= 0.0:
+    best = _corrected(before, path, along)[0]
+    at_low = least_room(question, on, best)
+    if at_low <= 0.0:
         return before
-    return at(root_between(room, 0.0, 1.0, 1e-14))
-
-
-def _just_before(z: Four, curve: Curve) -> Stance:
-    """The bridge at a corner, with the slope and the stability that the way to it has."""
-    stance: Stance = retold(stance_at)(z, curve)
-    near: Stance = retold(stance_after)(stance, -_PROBE, curve)[0]
-    return Stance(z, stance.tangent, stance.separation, near.slope, near.unstable, near.margin, stance.opening)
-
-
-def _round_corner(
-    question: Question, on: Indices, last: Stance, curve: Curve
-) -> tuple[int, tuple[Stance, Curve, Indices]] | None:
-    """What happens at a corner, and the bridge there as the first on the pieces that follow; None if none do."""
-    rooms = rooms_at(question, on, last.z)
-    shift = [0, 0]
-    for solid in range(2):
-        inner, outer = rooms[2 * solid], rooms[2 * solid + 1]
-        if min(inner, outer) < _AT_CORNER:
-            shift[solid] = -1 if inner < outer else 1
-    best = None
-    for one, other in ((1, 1),) if curve.symmetric else ((1, 0), (0, 1), (1, 1)):
-        after = on[0] + one * shift[0], on[1] + other * shift[1]
-        if after == on or not _is_answered(question, after):
-            continue
-        onward = _onward(question, after, last.z, curve.symmetric)
-        if onward is None:
-            continue
-        event = _event_between(last, onward[0], curve)
-        if event == ARRIVED:
-            return event, onward
-        if best is None or best[0] == LOST:
-            best = event, onward
+    least, low, high, side = at_low, 0.0, 1.0, 0
+    at_high = least_room(question, on, _corrected(after, path, along)[0])
+    for _ in range(_MOST_ROUNDS):
+        share = low + (high - low) * at_low / (at_low - at_high)
+        if not low < share < high:
+            share = 0.5 * (low + high)
+        z = _corrected(moved(before, share, way), path, along)[0]
+        room = least_room(question, on, z)
+        if abs(room) < abs(least):
+            best, least = z, room
+        if room > 0.0:
+            low, at_low = share, room
+            at_high *= 0.5 if side > 0 else 1.0
+            side = 1
+        else:
+            high, at_high = share, room
+            at_low *= 0.5 if side < 0 else 1.0
+            side = -1
+        if abs(room) < _NARROW or high - low < _NARROW:
+            break
     return best
 
 
-def _is_answered(question: Question, on: Indices) -> bool:
+@kernel
+def _seen_from(stance: Stance, near: Stance) -> Stance:
+    """A bridge at a corner, with the slope and the stability that the way next to it has."""
+    return Stance(
+        stance.z, stance.tangent, stance.separation, near.slope, near.unstable, near.margin, stance.opening
+    )  # fmt: skip
+
+
+@kernel
+def _just_before(z: Four, path: Curve) -> Stance:
+    """The bridge at a corner, as the way to it has it."""
+    stance = _stance_at(z, path)
+    return _seen_from(stance, _stance_after(stance, -_PROBE, path)[0])
+
+
+@kernel
+def _shift(inner: float, outer: float) -> int:
+    """Which piece follows for a contact circle, towards the tip or away from it."""
+    if min(inner, outer) < _AT_CORNER:
+        return -1 if inner < outer else 1
+    return 0
+
+
+@kernel
+def _round_corner(question: Question, track: Track, last: Stance) -> _Turn:
+    """What happens at a corner, and the bridge there as the first on the pieces that follow; OFF if none do."""
+    inner1, outer1, inner2, outer2 = rooms_at(question, track.on, last.z)
+    shift1, shift2 = _shift(inner1, outer1), _shift(inner2, outer2)
+    best = _Turn(False, OFF, last, track)
+    for one, other in ((1, 0), (0, 1), (1, 1)):
+        after = On(track.on.first + one * shift1, track.on.second + other * shift2)
+        if track.symmetric and one + other == 1:
+            continue
+        if (after.first == track.on.first and after.second == track.on.second) or not _is_answered(question, after):
+            continue
+        turn = _onward(question, after, last, track.symmetric)
+        if turn.goes_on and turn.event == ARRIVED:
+            return turn
+        if turn.goes_on and (best.event == OFF or best.event == LOST):
+            best = turn
+    return best
+
+
+@kernel
+def _is_answered(question: Question, on: On) -> bool:
     """Whether there are two such pieces, of which one at most is the side of a cylinder, and that at a volume."""
-    if not (0 <= on[0] < len(question.first) and 0 <= on[1] < len(question.second)):
+    if not (0 <= on.first < pieces_of(question.first) and 0 <= on.second < pieces_of(question.second)):
         return False
-    sides = sum(isinstance(piece.surface, Side) for piece in pieces_on(question, on))
-    return sides == 0 or (sides == 1 and question.control == VOLUME)
+    first, second = piece_of(question.first, on.first).surface.kind, piece_of(question.second, on.second).surface.kind
+    return (first != SIDE and second != SIDE) or (first != second and question.control == VOLUME)
 
 
-def _onward(question: Question, after: Indices, z: Four, symmetric: bool) -> tuple[Stance, Curve, Indices] | None:
+@kernel
+def _onward(question: Question, after: On, last: Stance, symmetric: bool) -> _Turn:
     """The bridge at a corner on the pieces that follow, and the way on which both circles lie on them."""
-    symmetric = symmetric or is_symmetric(question, Found(z, after))
+    track = Track(after, symmetric or is_symmetric(question, last.z, after), 1.0)
     for hand in (1.0, -1.0):
-        curve = Curve(held_on(question, after), symmetric, hand)
-        stance: Stance = retold(stance_at)(z, curve)
-        probe, is_met = retold(stance_after)(stance, _PROBE, curve)
-        if is_met and min(rooms_at(question, after, probe.z)) > 0.0:
-            seen = Stance(
-                z, stance.tangent, stance.separation, probe.slope, probe.unstable, probe.margin, stance.opening
-            )
-            return seen, curve, after
-    return None
+        track = Track(after, track.symmetric, hand)
+        path = curve_on(question, track)
+        stance = _stance_at(last.z, path)
+        probe, is_met = _stance_after(stance, _PROBE, path)
+        if is_met and least_room(question, after, probe.z) > 0.0:
+            seen = _seen_from(stance, probe)
+            return _Turn(True, _event_between(last, seen, symmetric), seen, track)
+    return _Turn(False, OFF, last, track)
 
 
-def _event_between(before: Stance, after: Stance, curve: Curve) -> int:
+@kernel
+def _event_between(before: Stance, after: Stance, symmetric: bool) -> int:
     """What happens at a corner: ARRIVED if nothing does."""
     changes = abs(after.unstable - before.unstable)
     if before.slope * after.slope < 0.0:
-        return FOLD if changes == 1 or (curve.symmetric and changes in (0, 2)) else LOST
+        return FOLD if changes == 1 or (symmetric and (changes == 0 or changes == 2)) else LOST
     if changes == 0:
         return ARRIVED
-    return PITCHFORK if changes == 1 and curve.symmetric else LOST
+    return PITCHFORK if changes == 1 and symmetric else LOST
