@@ -184,6 +184,33 @@ def test_curves_outlines_and_lower_ends_are_those_of_python(answers_of, control)
 
 
 @NODE
+@pytest.mark.parametrize("control", ["suction", "volume"])
+def test_rows_are_the_bridges_one_by_one(answers_of, control):
+    print(f"seed {SEED}")
+    rng = np.random.default_rng(SEED + 4)
+    pairs = [random_pair(rng) for _ in range(60)]
+    gaps = [float(rng.uniform(0.0, 0.05) * min(pair.radius)) if rng.random() < 0.9 else 0.0 for pair in pairs]
+    held = {"suction": 20e3} if control == "suction" else {"volume": 1e-15}
+    asked = [question("bridge", pair, gap, **held) for pair, gap in zip(pairs, gaps, strict=True)]
+    solids = [number for one in asked for part in ("radius", "contactAngle") for number in one["given"][0][part]]
+    liquid = asked[0]["given"][-1]
+    rows, *one_by_one = answers_of([{"ask": "rows", "given": [solids, gaps, liquid]}, *asked])
+    assert [bool(there) for there in rows["exists"]] == [one is not None for one in one_by_one]
+    table = np.array(rows["numbers"], float).reshape(len(pairs), -1)
+    names = {"force": "force", "volume": "volume", "area": "liquidGasArea", "neck_radius": "neckRadius"}
+    for row, one in zip(table, one_by_one, strict=True):
+        for own, name in names.items():
+            value = row[rows["fields"].index(own)]
+            assert value == pytest.approx(math.nan if one is None or one[name] is None else one[name], nan_ok=True)
+    assert sum(rows["exists"]) > 15
+    refused = [[solids[1:], gaps, liquid], [solids, [-1.0, *gaps[1:]], liquid]]
+    assert answers_of([{"ask": "rows", "given": given} for given in refused]) == [
+        "RangeError: pairs: give two radii and two angles for each separation",
+        "RangeError: pair, separation, suction or volume: out of range",
+    ]
+
+
+@NODE
 def test_laws_are_those_of_python(answers_of):
     print(f"seed {SEED}")
     rng = np.random.default_rng(SEED + 2)

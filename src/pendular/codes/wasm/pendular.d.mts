@@ -43,6 +43,15 @@ export interface Bridge {
   meridian: { radius: number; slope: number; halfLength: number; curvature: number };
 }
 
+/** Numbers of many bridges: those of bridge i begin at i * fields.length; NaN where there is none. */
+export interface Rows {
+  /** 1 where there is a bridge. */
+  exists: Uint8Array;
+  /** Their names, as `Bridge` has them or nearly so, in its units; the curvature is the suction over the surface tension. */
+  fields: string[];
+  numbers: Float64Array;
+}
+
 /** What a law gives; the control is its own, a suction or a volume. NaN outside of its domain. */
 export interface Law {
   /** F/(2πγR̄), 0 beyond rupture. */
@@ -58,6 +67,8 @@ export interface Solver {
   bridge(pair: Pair, separation: number, liquid: Liquid): Bridge | null;
   /** Those at many separations, each sought first from the one before: give them in order. */
   bridges(pair: Pair, separations: Iterable<number>, liquid: Liquid): (Bridge | null)[];
+  /** The stable bridges of many pairs at once, each pair by two radii and two contact angles. */
+  rows(pairs: ArrayLike<number>, separations: ArrayLike<number>, liquid: Liquid): Rows;
   /** The bridge at the end of its stable branch, where it breaks; null where there is none. */
   rupture(pair: Pair, liquid: Liquid): Bridge | null;
   /** The bridge at which the stable branch begins, null where that is contact. */

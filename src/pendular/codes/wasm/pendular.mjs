@@ -61,9 +61,7 @@ function solver(module) {
     numbers.set([...both("radius", pair.radius), ...both("contactAngle", pair.contactAngle ?? 0)], pairAt);
     numbers[pairAt + 4] = liquid.surfaceTension;
     const status = ask(control, held, BYTES * pairAt, BYTES * stateAt);
-    if (status === FAILED) throw new Error("the solver did not find, or exclude, the bridge");
-    if (status !== FOUND && status !== NO_BRIDGE)
-      throw new RangeError("pair, separation, suction or volume: out of range");
+    if (status !== FOUND && status !== NO_BRIDGE) throw refusalOf(status);
     return status;
   }
 
@@ -100,7 +98,31 @@ function solver(module) {
     return { x, y: numbers.slice(roomAt + points, roomAt + 2 * points) };
   }
 
+  /** Stable bridges of many pairs, each by its two radii and two angles, as rows of numbers. */
+  function rows(pairs, separations, liquid) {
+    const count = separations.length;
+    if (pairs.length !== 4 * count) throw new RangeError("pairs: give two radii and two angles for each separation");
+    const { control, held } = heldBy(liquid);
+    const [heldAt, pairsAt] = [roomAt + count, roomAt + 2 * count];
+    const statesAt = pairsAt + PAIR_NUMBERS * count;
+    const statusesAt = statesAt + FIELDS.length * count;
+    makeRoom(statusesAt + count - roomAt);
+    numbers.set(separations, roomAt);
+    numbers.fill(held, heldAt, pairsAt);
+    for (let i = 0; i < count; i++) {
+      for (let k = 0; k < 4; k++) numbers[pairsAt + PAIR_NUMBERS * i + k] = pairs[4 * i + k];
+      numbers[pairsAt + PAIR_NUMBERS * i + 4] = liquid.surfaceTension;
+    }
+    const places = [roomAt, heldAt, pairsAt, statesAt, statusesAt].map((place) => BYTES * place);
+    const worst = module.pendular_bridges(control, BigInt(count), ...places);
+    if (worst > NO_BRIDGE) throw refusalOf(worst);
+    const statuses = new Int32Array(module.memory.buffer, places[4], count);
+    const exists = Uint8Array.from(statuses, (status) => Number(status === FOUND));
+    return { exists, fields: FIELDS, numbers: numbers.slice(statesAt, statesAt + FIELDS.length * count) };
+  }
+
   return {
+    rows,
     bridge: (pair, separation, liquid) =>
       asked(pair, liquid, (control, held, ...places) => module.pendular_bridge(control, separation, held, ...places)),
     bridges: (pair, separations, liquid) => {
@@ -118,6 +140,11 @@ function solver(module) {
     laws: lawsOf(module),
   };
 }
+
+const refusalOf = (status) =>
+  status === FAILED
+    ? new Error("the solver did not find, or exclude, the bridge")
+    : new RangeError("pair, separation, suction or volume: out of range");
 
 function lawsOf(module) {
   const laws = {};

@@ -1,1 +1,1 @@
-"""The explorer page: a pair, its bridge and its curves under the hand, computed in the browser that shows them."""
+"""The explorer page: a pair and its bridge, or a heap of grains, under the hand, computed in the browser."""

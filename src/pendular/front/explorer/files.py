@@ -1,6 +1,7 @@
-"""The page as files: one of HTML that holds all, style, words, solver and laws, and one that keeps it when offline.
+"""The page as files: one of HTML with style, words, solver and laws, one of the heap, and one that keeps it offline.
 
-All is in one file so that it opens from a disk as well, where browsers load no modules.
+Nothing is a module for the browser, which loads none from a disk: the pair is in the file of HTML, the view of a heap
+in a plain script that is loaded when it is first asked for.
 """
 
 import base64
@@ -15,13 +16,42 @@ from ... import __version__
 from ...codes import wasm
 from ...codes.folder import write_folder
 from ...ground import colours
+from .heap_records import heap_records, packings
 from .records import records
 
 __all__ = ["page_files", "write_page"]
 
 # Each after those that it imports.
-_MODULES = ("units", "liquids", "view", "answer", "tracks", "picture", "chart", "map", "words", "main")
+_MODULES = (
+    "units",
+    "liquids",
+    "view",
+    "answer",
+    "tracks",
+    "picture",
+    "chart",
+    "map",
+    "words",
+    "fields",
+    "views",
+    "main",
+)
+_HEAP_MODULES = (
+    "grains",
+    "pairs",
+    "wetted",
+    "curves",
+    "space",
+    "raster",
+    "scene",
+    "heap_view",
+    "heap_answer",
+    "retention_chart",
+    "heap_words",
+    "heap",
+)
 _IMPORT = re.compile(r"^import [^;]*;\n", re.MULTILINE)
+_SHARED = re.compile(r"^import \{([^}]*)\} from \"\.\./(\w+)\.mjs\";\n", re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=async |const |function )", re.MULTILINE)
 _HOLE = re.compile(r"\{(\w+)\}")
 
@@ -43,8 +73,13 @@ def page_files() -> dict[str, bytes]:
         script=_script(wasm.module()),
         version=__version__,
     ).encode()
-    digest = hashlib.sha256(page).hexdigest()[:16]
-    return {"index.html": page, "offline.js": _filled("offline.js", digest=digest).encode()}
+    heap = _heap_script().encode()
+    digest = hashlib.sha256(page + heap).hexdigest()[:16]
+    return {
+        "index.html": page,
+        "heap.js": heap,
+        "offline.js": _filled("offline.js", digest=digest).encode(),
+    }
 
 
 def write_page(folder: Path) -> list[Path]:
@@ -53,17 +88,47 @@ def write_page(folder: Path) -> list[Path]:
 
 
 def _script(module: bytes) -> str:
-    """All modules as one, which browsers load from a disk as well."""
-    known = json.dumps(records(), ensure_ascii=False)  # with Infinity, which is a number in JavaScript
+    """All modules of the pair as one, which browsers load from a disk as well."""
     encoded = base64.b64encode(module).decode()
-    own = (_text(f"{name}.mjs") for name in _MODULES)
-    parts = [
+    shared = ", ".join(_shared_names())
+    return _joined(
         wasm.script(),
-        f"const RECORDS = {known};",
+        f"const RECORDS = {_as_json(records())};",
         f'const MODULE = Uint8Array.from(atob("{encoded}"), (letter) => letter.charCodeAt(0));',
-        *own,
-    ]
-    return "\n".join(_EXPORT.sub("", _IMPORT.sub("", part)) for part in parts).replace("</", "<\\/")
+        f"const SHARED = () => ({{ {shared} }});",
+        *(_text(f"{name}.mjs") for name in _MODULES),
+    ).replace("</", "<\\/")
+
+
+def _heap_script() -> str:
+    """All modules of the heap as a plain script: one function of what they take from the page."""
+    told = {**heap_records(), "html": _text("heap/heap.html"), "style": _text("heap/heap.css")}
+    body = _joined(
+        f"const HEAP_RECORDS = {_as_json(told)};",
+        f"const PACKINGS = {_as_json(packings())};",
+        *_heap_modules(),
+    )
+    shared = ", ".join(_shared_names())
+    return f'"use strict";\nwindow.explorer.makeHeap = ({{ {shared} }}) => {{\n{body}\nreturn makeHeap();\n}};\n'
+
+
+def _heap_modules() -> list[str]:
+    return [_text(f"heap/{name}.mjs") for name in _HEAP_MODULES]
+
+
+def _shared_names() -> list[str]:
+    """What the modules of the heap import from those of the page."""
+    found = [names for text in _heap_modules() for names, _ in _SHARED.findall(text)]
+    return sorted({name.strip() for names in found for name in names.split(",") if name.strip()})
+
+
+def _joined(*parts: str) -> str:
+    return "\n".join(_EXPORT.sub("", _IMPORT.sub("", part)) for part in parts)
+
+
+def _as_json(known: object) -> str:
+    """With Infinity, which is a number in JavaScript."""
+    return json.dumps(known, ensure_ascii=False, separators=(",", ":"))
 
 
 def _text(name: str) -> str:

@@ -77,7 +77,7 @@ function rangeOf(name, values, state, before) {
   return [Math.min(0, ...seen), Math.max(0, ...seen)];
 }
 
-function pathOf(points) {
+export function pathOf(points) {
   let path = "";
   let isOn = false;
   for (const [x, y] of points) {
@@ -89,7 +89,7 @@ function pathOf(points) {
 }
 
 /** Round numbers between two ends, about so many. */
-function ticksBetween(low, high, count) {
+export function ticksBetween(low, high, count) {
   const wanted = (high - low) / count;
   const decade = 10 ** Math.floor(Math.log10(wanted));
   const step = decade * [1, 2, 5, 10].find((one) => one * decade >= wanted);
@@ -135,7 +135,7 @@ function rupturePoint(rupture, field, across, up, right) {
   );
 }
 
-const circle = (x, y, radius, name) =>
+export const circle = (x, y, radius, name) =>
   `<circle class="${name}" cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="${radius}"/>`;
 
 function lawPaths(answer, across, up) {

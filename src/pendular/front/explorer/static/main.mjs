@@ -2,6 +2,7 @@
 
 import { answerTo, heldInstead, lawsAt, percent } from "./answer.mjs";
 import { chartOf, lawLine } from "./chart.mjs";
+import { fieldBox, markRight, markWrong } from "./fields.mjs";
 import { liquidNames } from "./liquids.mjs";
 import { drawMap, MAP_DEGREES, MAP_MARGIN, mapChoices, mapFrame, mapKey, mapSides, valueAtShare } from "./map.mjs";
 import { pictureOf, solidsInWords, VIEW_BOX } from "./picture.mjs";
@@ -9,6 +10,7 @@ import { load } from "./pendular.mjs";
 import { MODULE, RECORDS } from "./records.mjs";
 import { BEYOND_RUPTURE, positionOf, trackOf, valueAt, valueOf, written } from "./tracks.mjs";
 import { show } from "./units.mjs";
+import { asksForHeap, closeHeap, heapLink, openHeap } from "./views.mjs";
 import { FIRST_VIEW, hashOf, HELD, isPlane, startingValue, viewAt } from "./view.mjs";
 import { commandOf, csvOf, numbersOf, plainText, programOf, spoken, tilesOf } from "./words.mjs";
 
@@ -29,7 +31,7 @@ const LITTLE = 80; // between two changes of tables and texts while a hand moves
 const PAUSE = 250; // after the last change: what is slow, or speaks, waits so long, [ms]
 
 const at = (id) => document.getElementById(id);
-const exact = await load(MODULE);
+export const exact = await load(MODULE);
 const fields = {};
 let answer; // what is shown
 let picture;
@@ -56,36 +58,26 @@ function layOut() {
 }
 
 function fieldNamed(name) {
-  const hasSlider = name !== "liquid";
-  const field = document.createElement("div");
-  field.className = "field";
-  field.innerHTML =
-    `<label for="text-${name}">${LABELS[name] ?? "Suction"}</label>` +
-    `<input id="text-${name}" type="text" spellcheck="false" autocapitalize="off" autocomplete="off" aria-describedby="wrong-${name}"${hasSlider ? "" : ' list="liquids"'}>` +
-    (hasSlider ? `<input id="slider-${name}" type="range" min="0" max="1000" step="1">` : "") +
-    `<p class="wrong" id="wrong-${name}" role="alert"></p>`;
-  const [label, text] = [field.querySelector("label"), field.querySelector("input")];
-  const slider = field.querySelector("[type=range]");
-  const wrong = field.querySelector(".wrong");
-  fields[name] = { field, label, text, slider, wrong, isRefused: false };
+  const made = fieldBox(name, LABELS[name] ?? "Suction", name === "liquid" ? "liquids" : "");
+  const { field, text, slider } = made;
+  fields[name] = made;
   const finish = () => {
     const typed = text.value.trim();
-    if (fields[name].isRefused || typed !== answer.view[name]) change(name, { [name]: typed });
+    if (made.isRefused || typed !== answer.view[name]) change(name, { [name]: typed });
   };
   text.addEventListener("change", finish);
-  slider?.setAttribute("aria-label", label.textContent);
   slider?.addEventListener("input", () => slide(name, slider.valueAsNumber));
   return field;
 }
 
-function choice(id, names, chosen) {
+export function choice(id, names, chosen) {
   at(id).innerHTML = names
     .map((name) => `<label><input type="radio" name="${id}" value="${name}"><span>${name}</span></label>`)
     .join("");
   at(id).addEventListener("change", (event) => chosen(event.target.value));
 }
 
-function options(id, choices) {
+export function options(id, choices) {
   at(id).innerHTML = choices.map(([value, words]) => `<option value="${value}">${words}</option>`).join("");
 }
 
@@ -129,7 +121,9 @@ function listen() {
   at("save-program").addEventListener("click", () => save("bridge.py", "text/x-python", programOf(answer)));
   for (const button of document.querySelectorAll("[data-copies]")) button.addEventListener("click", () => copy(button));
   addEventListener("hashchange", () => begin());
+  document.querySelector(".skip").addEventListener("click", skip);
   const observer = new ResizeObserver(() => {
+    if (!answer) return; // the heap is open
     measure();
     drawSized();
   });
@@ -296,7 +290,7 @@ function showAnswer(next) {
 const filled = new WeakMap();
 
 /** Give an element its content, where that is another one than before: each change is laid out and painted. */
-function fill(element, content) {
+export function fill(element, content) {
   if (filled.get(element) === content) return;
   element.innerHTML = content;
   filled.set(element, content);
@@ -416,20 +410,12 @@ function showField(name, { text, slider, isRefused }) {
 }
 
 function refuse(name, text, error) {
-  const field = fields[name];
-  field.isRefused = true;
-  field.text.value = text;
-  field.text.setAttribute("aria-invalid", "true");
-  field.wrong.textContent = error.message;
+  markWrong(fields[name], text, error);
   showFields();
 }
 
 function accept(name) {
-  const field = fields[name];
-  if (!field.isRefused) return;
-  field.isRefused = false;
-  field.text.removeAttribute("aria-invalid");
-  field.wrong.textContent = "";
+  if (fields[name].isRefused) markRight(fields[name]);
 }
 
 // -- To take away ----------------------------------------------------------------------------------------------------
@@ -440,14 +426,7 @@ const wholeCurve = () =>
 /** Picture and curve beside each other, in the colours of paper. */
 function wholePicture() {
   const [width, height] = [460, 340];
-  const style = getComputedStyle(document.documentElement);
-  const palette = Object.fromEntries(
-    at("style")
-      .textContent.match(/--[\w-]+(?=:)/g)
-      .map((name) => [name, style.getPropertyValue(name)]),
-  );
-  const light = at("style").textContent.match(/:root \{([^}]*)\}/)[1];
-  for (const [, name, value] of light.matchAll(/(--[\w-]+): *([^;]+);/g)) palette[name] = value;
+  const palette = paperColours();
   const lines = chartOf(answer, width, height);
   const rules = [...document.styleSheets[0].cssRules].filter((rule) =>
     /^\.(picture|chart)\b/.test(rule.selectorText ?? ""),
@@ -464,18 +443,31 @@ function wholePicture() {
   );
 }
 
-function save(name, type, text) {
+/** Colours of the style sheet as they are in the light. */
+export function paperColours() {
+  const style = getComputedStyle(document.documentElement);
+  const palette = Object.fromEntries(
+    at("style")
+      .textContent.match(/--[\w-]+(?=:)/g)
+      .map((name) => [name, style.getPropertyValue(name)]),
+  );
+  const light = at("style").textContent.match(/:root \{([^}]*)\}/)[1];
+  for (const [, name, value] of light.matchAll(/(--[\w-]+): *([^;]+);/g)) palette[name] = value;
+  return palette;
+}
+
+export function save(name, type, content) {
   const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([text], { type }));
+  link.href = URL.createObjectURL(new Blob([content], { type }));
   link.download = name;
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
 /** Put a text on the clipboard, and say so on the button. */
-async function copy(button) {
+export async function copy(button) {
   const what = button.dataset.copies;
-  const text = what === "link" ? `${location.href.replace(/#.*/, "")}#${hashOf(answer.view)}` : at(what).textContent;
+  const text = what === "link" ? `${location.href.replace(/#.*/, "")}#${heapLink() ?? hashOf(answer.view)}` : at(what).textContent;
   const before = button.textContent;
   try {
     if (navigator.clipboard) await navigator.clipboard.writeText(text);
@@ -503,6 +495,13 @@ function copyOldWay(text) {
 /** Show the view of the address; one with a mistake is told of, and the first view is shown. */
 function begin() {
   const hash = location.hash.slice(1) || location.search.slice(1);
+  if (asksForHeap(hash)) {
+    leave();
+    openHeap(hash);
+    return;
+  }
+  closeHeap();
+  measure();
   let notice = "";
   try {
     showAnswer(answerTo(viewAt(hash), exact, answer));
@@ -512,6 +511,18 @@ function begin() {
     showAnswer(answerTo(FIRST_VIEW, exact, answer));
   }
   if (notice) fill(at("notices"), `<p>${plainText(notice)}</p>`);
+}
+
+/** The pair goes out of sight: its address is kept in its link, and the address of the page is left alone. */
+function leave() {
+  clearTimeout(waiting);
+  if (answer) at("to-pair").href = `#${hashOf(answer.view)}`;
+}
+
+/** The settings of the view that is open get the focus; the address, which holds the view, stays. */
+function skip(event) {
+  event.preventDefault();
+  at(heapLink() === undefined ? "settings" : "heap-settings").focus();
 }
 
 /** What the page computes, for the console of a browser. */
@@ -526,7 +537,6 @@ window.explorer = {
 };
 
 layOut();
-measure();
 begin();
 listen();
 if ("serviceWorker" in navigator && location.protocol.startsWith("http"))

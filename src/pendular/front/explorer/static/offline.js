@@ -1,6 +1,6 @@
 // Keeps the page of the last visit for when there is no network.
 const KEPT = "pendular {digest}";
-const FILES = ["./"];
+const FILES = ["./", "heap.js"];
 
 addEventListener("install", (event) => {
   event.waitUntil(
@@ -25,6 +25,7 @@ addEventListener("activate", (event) => {
 });
 
 addEventListener("fetch", (event) => {
-  if (event.request.mode !== "navigate") return;
-  event.respondWith(fetch(event.request).catch(() => caches.match("./", { ignoreSearch: true })));
+  const isHeap = new URL(event.request.url).pathname.endsWith("/heap.js");
+  if (event.request.mode !== "navigate" && !isHeap) return;
+  event.respondWith(fetch(event.request).catch(() => caches.match(isHeap ? "heap.js" : "./", { ignoreSearch: true })));
 });

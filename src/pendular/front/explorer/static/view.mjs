@@ -80,7 +80,7 @@ export function viewAt(hash) {
   return view;
 }
 
-function oneOf(name, value, known) {
+export function oneOf(name, value, known) {
   if (!known.includes(value)) throw new RangeError(`${name}: '${value}' is not one of ${known.join(", ")}`);
 }
 
@@ -88,13 +88,13 @@ const QUANTITY = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*([^\d\s.+-].*)$/i;
 const isNumber = (text) => text !== "" && Number.isFinite(Number(text));
 
 /** A quantity as it is typed in a shell. */
-function bare(text) {
+export function bare(text) {
   const simple = text.trim().replaceAll(/[µμ]/g, "u").replace("°C", "degC").replace(/°$/, "").replace("−", "-");
   return isNumber(simple) ? simple : simple.replace(QUANTITY, "$1$2");
 }
 
 /** A quantity as it is shown to people, the inverse of `bare`. */
-function spaced(text) {
+export function spaced(text) {
   const found = isNumber(text) ? null : QUANTITY.exec(text);
   if (!found || found[2] === "°") return text;
   return `${found[1]} ${found[2].replace("degC", "°C").replace(/^u/, "µ")}`;
@@ -135,14 +135,14 @@ function readRadius(name, text) {
   return size;
 }
 
-function readContactAngle(name, text) {
+export function readContactAngle(name, text) {
   const degrees = readDegrees(name, text);
   if (!(degrees >= 0 && degrees < 180))
     throw new RangeError(`${name}: '${text}' is not in [0, 180) degrees; write it like 20, 20deg or 0.35rad`);
   return degrees;
 }
 
-function readLiquid(view) {
+export function readLiquid(view) {
   if (!view["surface-tension"])
     return liquidNamed(view.liquid, readQuantity("temperature", view.temperature, "K", "20degC"));
   const surfaceTension = readQuantity("surface-tension", view["surface-tension"], "N/m", "72.8mN/m");

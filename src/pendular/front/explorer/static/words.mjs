@@ -26,7 +26,7 @@ export function tilesOf({ state, rupture, lowerEnd, view, isFailure }) {
   return tiles.join("");
 }
 
-const tile = (role, name, value, note) =>
+export const tile = (role, name, value, note) =>
   `<div class="tile ${role}"><span class="name">${name}</span><span class="value">${value}</span><span class="note">${note}</span></div>`;
 
 /** The answer in a sentence, for those who hear the page. */
@@ -111,7 +111,7 @@ export function programOf({ question }) {
 }
 
 /** A number as Python has a float. */
-const python = (number) => (Number.isInteger(number) && Math.abs(number) < 1e16 ? `${number}.0` : String(number));
+export const python = (number) => (Number.isInteger(number) && Math.abs(number) < 1e16 ? `${number}.0` : String(number));
 
 /** The states of a curve, in the columns of `pendular curve --csv`. */
 export function csvOf(states, question) {
