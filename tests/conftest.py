@@ -15,3 +15,11 @@ def run(capsys):
         return (end.value.code, *capsys.readouterr())
 
     return run_with
+
+
+@pytest.fixture(scope="session")
+def liggghts(tmp_path_factory):
+    """LIGGGHTS with the cohesion model."""
+    from in_liggghts import built
+
+    return built(tmp_path_factory.mktemp("model"))

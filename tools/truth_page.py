@@ -205,6 +205,18 @@ SUBJECTS: dict[str, tuple[Bound, ...]] = {
             "test_liggghts.py::test_pairs_have_the_force_of_the_table_up_to_rupture",
         ),
         Bound(
+            "LIGGGHTS: one bridge with a flat mesh, wherever the grain lies",
+            "1e-9",
+            "on faces, edges, corners and seams, one rank and two",
+            "test_liggghts_walls.py::test_a_grain_on_a_flat_mesh_has_one_bridge_wherever_it_lies",
+        ),
+        Bound(
+            "LIGGGHTS: the sum of the liquid on grains and in bridges",
+            "1e-12",
+            "grains that fly about, one rank and two",
+            "test_liggghts_film.py::test_liquid_goes_from_grains_to_bridges_and_back",
+        ),
+        Bound(
             "YADE with the engine",
             "2e-9",
             "forces in a running YADE",

@@ -62,7 +62,7 @@ int main()
         } else {
             if (std::scanf("%lf %lf %lf %lf %lf", &a, &b, &c, &d, &e) != 5)
                 return 1;
-            std::printf("%.17g\n", damping_of(a, b, c, d, e));
+            std::printf("%.17g\n", pendular_damping(a, b, c, d, e));
         }
     }
     return 0;

@@ -20,7 +20,7 @@ from ..table.task import refuse_dry
 if TYPE_CHECKING:
     from ..table import Table
 
-__all__ = ["LARGEST", "bound_lines", "c_header", "table_header"]
+__all__ = ["LARGEST", "bound_lines", "c_header", "headers", "table_header"]
 
 LARGEST = 1_000_000  # [bytes]
 
@@ -63,6 +63,12 @@ _CONTROLS = {
 def table_header() -> str:
     """Text of `pendular_table.h`, the C header that opens tables and answers what they answer."""
     return (files(__package__) / "pendular_table.h").read_text(encoding="utf-8")
+
+
+def headers() -> dict[str, bytes]:
+    """The C headers that programs with bridges of their own include, by their names."""
+    names = ("pendular_table.h", "pendular_viscous.h")
+    return {name: (files(__package__) / name).read_bytes() for name in names}
 
 
 def c_header(table: "Table", *, prefix: str = "pendular_") -> str:

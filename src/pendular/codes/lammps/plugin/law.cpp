@@ -210,7 +210,7 @@ double Law::suction(const Bridge &bridge, const Solids &solids, double separatio
 double Law::drag(const Bridge &bridge, const Solids &solids, double separation, double speed) const
 {
     const double gap = std::fmax(separation, smallest_gap);
-    return speed * damping_of(gap, volume(bridge, solids, separation), solids.radius1, solids.radius2, viscosity);
+    return speed * pendular_damping(gap, volume(bridge, solids, separation), solids.radius1, solids.radius2, viscosity);
 }
 
 std::string Law::refusal(double value, const Solids &solids) const
