@@ -34,6 +34,7 @@ FILES = {
     "tests/test_lammps.py": "lammps",
     "tests/test_lammps_examples.py": "lammps",
     "tests/test_explorer_page.py": "page",
+    "tests/test_explorer_fit_page.py": "page",
 }
 
 

@@ -211,6 +211,44 @@ def test_rows_are_the_bridges_one_by_one(answers_of, control):
 
 
 @NODE
+@pytest.mark.parametrize("control", ["suction", "volume"])
+def test_rates_of_the_force_are_its_differences(answers_of, control):
+    print(f"seed {SEED}")
+    rng = np.random.default_rng(SEED + 3)
+    liquid, bridges, asked = pl.Liquid(surface_tension=TENSION), [], []
+    while len(bridges) < 25:
+        radii = 10.0 ** rng.uniform(-5, -4, 2)
+        radii[1] = math.inf if rng.random() < 0.3 else radii[1]
+        pair = pl.Pair(tuple(radii), tuple(rng.uniform(0.2, 1.2, 2)))
+        size = float(pair.derjaguin_radius)
+        held = {"suction": 10.0 ** rng.uniform(0, 2) * TENSION / size, "volume": 10.0 ** rng.uniform(-5, -2) * size**3}
+        given = {control: float(held[control])}
+        rupture = pl.rupture(pair, **given, liquid=liquid)
+        if rupture.exists:
+            gap = float(rng.uniform(0.1, 0.6) * rupture.separation)
+            bridges.append((pair, gap, given))
+            asked.append(question("bridge", pair, gap, **given))
+    states = answers_of(asked)
+    rates = answers_of(
+        [question("forceRates", pair, state, **given) for (pair, _, given), state in zip(bridges, states, strict=True)]
+    )
+    for (pair, gap, given), found in zip(bridges, rates, strict=True):
+        numbers = np.array([gap, given[control], *np.log(pair.radii), *np.cos(pair.contact_angles)])
+        steps = np.array([1e-4 * gap, 1e-4 * given[control], 1e-4, 1e-4, 1e-4, 1e-4])
+        for i, name in enumerate(("separation", "held", "logRadius1", "logRadius2", "cosAngle1", "cosAngle2")):
+            if not math.isfinite(numbers[i]):  # of a plane
+                assert found[name] == 0.0
+                continue
+            forces = []
+            for way in (1.0, -1.0):
+                place = numbers + way * steps * (np.arange(6) == i)
+                moved = pl.Pair(tuple(np.exp(place[2:4])), tuple(np.arccos(place[4:])))
+                forces.append(float(pl.bridge(moved, place[0], **{control: place[1]}, liquid=liquid).force))
+            slope = (forces[0] - forces[1]) / (2.0 * steps[i])
+            assert found[name] == pytest.approx(slope, rel=1e-5, abs=1e-7 * abs(forces[0]) / steps[i] * 1e-4), name
+
+
+@NODE
 def test_laws_are_those_of_python(answers_of):
     print(f"seed {SEED}")
     rng = np.random.default_rng(SEED + 2)

@@ -8,19 +8,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from . import rules
 from .unknowns import Unknown, outer, slope
 
 __all__ = ["Errors", "errors_of", "secant_rates", "widening"]
 
 Floats = NDArray[np.float64]
-
-VALLEY = 0.98  # correlation from which on the data hardly tell two unknowns apart
-_SINGULAR = 1e-5  # singular value of scaled columns, over the largest, that is rounding and differences
-_LEAST_ROOM = 0.05  # of a difference, in standard errors
-_PART = 1e-2  # of an unknown in a direction in which nothing changes, from which on it is not fixed
-_NEAR = 2.0  # standard errors of a cosine within which an angle may be 0
-_AT_BOUND, _FAR = 1e-2, 5.0  # standard errors: at the bound of a cosine, and far beyond it
-_LIKELY, _SURE = 0.6827, 0.95
 
 
 class Errors(NamedTuple):
@@ -44,11 +37,11 @@ def errors_of(unknowns: Sequence[Unknown], variables: Floats, jacobian: Floats, 
     size[silent] = 1.0
     scaled = jacobian / size
     values, vectors = np.linalg.eigh(scaled.T @ scaled)
-    flat = values <= _SINGULAR**2 * max(values[-1], 1.0)
+    flat = values <= rules.SINGULAR**2 * max(values[-1], 1.0)
     inverse = (vectors[:, ~flat] / values[~flat]) @ vectors[:, ~flat].T
     widened = widening(scores, gain, len(unknowns))
     deviation = np.sqrt(widened * np.diag(inverse))
-    lost = np.any(np.abs(vectors[:, flat]) > _PART, axis=1)
+    lost = np.any(np.abs(vectors[:, flat]) > rules.NOT_FIXED, axis=1)
     step = -inverse @ (scaled.T @ scores) / np.mean(gain) / size
     correlation = widened * inverse / np.outer(*(2 * [np.where(deviation > 0.0, deviation, 1.0)]))
     correlation[lost] = correlation[:, lost] = math.nan
@@ -91,7 +84,7 @@ def secant_rates(
     if not size.all():
         return jacobian
     values, vectors = np.linalg.eigh((jacobian / size).T @ (jacobian / size))
-    if values[0] < _SINGULAR**2 * values[-1]:
+    if values[0] < rules.SINGULAR**2 * values[-1]:
         return jacobian
     axes = math.sqrt(widened) * vectors / np.sqrt(values) / size[:, None]
     columns = np.column_stack([_secant(residuals, variables, axis, low, high) for axis in axes.T])
@@ -109,7 +102,7 @@ def _secant(residuals: Callable[[Floats], Floats], start: Floats, axis: Floats, 
         back = np.where(axis > 0.0, (start - low) / axis, np.where(axis < 0.0, (start - high) / axis, np.inf))
     forth, back_to = min(1.0, float(room.min())), -min(1.0, float(back.min()))
     width = forth - back_to
-    if width < _LEAST_ROOM:
+    if width < rules.LEAST_ROOM:
         return np.full(residuals(start).shape, np.nan)
     return (residuals(start + forth * axis) - residuals(start + back_to * axis)) / width
 
@@ -121,16 +114,18 @@ def _error_of(unknown: Unknown, variable: float, error: float, step: float) -> t
         return math.inf, None
     if unknown.kind != "cosine":
         return abs(slope(unknown, value)) * error, None
-    if variable + _NEAR * error < 1.0:
+    if variable + rules.NEAR_ZERO * error < 1.0:
         return max(abs(outer(unknown, variable + way) - value) for way in (-error, error)), None
-    best = max(variable, variable + step) if variable > 1.0 - _AT_BOUND * error else variable  # as if none were there
-    likely, sure = (math.acos(max(-1.0, _exceeded(best, error, share))) for share in (_LIKELY, _SURE))
+    best = (
+        max(variable, variable + step) if variable > 1.0 - rules.AT_BOUND * error else variable
+    )  # as if none were there
+    likely, sure = (math.acos(max(-1.0, _exceeded(best, error, share))) for share in (rules.LIKELY, rules.SURE))
     return max(likely - value, 0.0), sure
 
 
 def _exceeded(mean: float, error: float, share: float) -> float:
     """The value that a normal variable, known to lie below 1, exceeds with a probability."""
-    if mean > 1.0 + _FAR * error:  # its tail falls exponentially
+    if mean > 1.0 + rules.FAR_BEYOND * error:  # its tail falls exponentially
         return 1.0 + math.log1p(-share) * error**2 / (mean - 1.0)
     normal = NormalDist(mean, error)
     return normal.inv_cdf((1.0 - share) * normal.cdf(1.0))
@@ -142,7 +137,7 @@ def _valley(unknowns: Sequence[Unknown], direction: Floats, silent: NDArray[np.b
     order = np.argsort(-np.abs(direction))
     if silent[order[0]] or len(names) == 1:
         return f"{names[order[0]]}: has no effect on these data"
-    share = sorted(i for i in order if abs(direction[i]) > _PART * abs(direction[order[0]]))
+    share = sorted(i for i in order if abs(direction[i]) > rules.NOT_FIXED * abs(direction[order[0]]))
     told = " and ".join(names[i] for i in share[:2])
     more = f", with {', '.join(names[i] for i in share[2:])}" if len(share) > 2 else ""
     return f"{told}: the data do not tell them apart{more}; fix one of them"
@@ -153,7 +148,7 @@ def _valleys(unknowns: Sequence[Unknown], correlation: Floats) -> list[str]:
     notes = []
     for i in range(len(unknowns)):
         for j in range(i):
-            if abs(correlation[i, j]) > VALLEY:
+            if abs(correlation[i, j]) > rules.VALLEY:
                 notes.append(
                     f"{unknowns[j].name} and {unknowns[i].name}: the data hardly tell them apart, correlation "
                     f"{correlation[i, j]:+.4f}"

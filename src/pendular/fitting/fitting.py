@@ -14,21 +14,19 @@ from ..ask.pair import Pair, check_pair
 from ..ask.problem import control_of
 from ..ground.check import in_range, one_of, whole_number
 from ..ground.warn import warn
+from . import rules
 from .errors import errors_of, secant_rates, widening
 from .model import Data, Model, ends_at
 from .question import curve_of, errors_given, model_of
 from .result import Fit
-from .search import LOSSES, Loss, Minimum, Misses, gain_of, limits_of, minimum_of, scores_of
+from .rules import Loss
+from .search import Minimum, Misses, gain_of, limits_of, minimum_of, scores_of
 from .unknowns import Unknown, outer
 
 __all__ = ["FitWarning", "fit"]
 
 Floats = NDArray[np.float64]
 
-_MOST_ROUNDS, _SETTLED = 20, 1e-3  # of the error that the residuals tell
-_FIRST_ERROR, _LEAST_ERROR = 0.02, 1e-12  # over the largest force
-_OF_MEDIAN = 1.4826  # standard deviation of normal numbers over the median of their sizes
-_AT_BOUND = 1e-6  # of the width between two bounds
 _MOST_STARTS = 100
 
 
@@ -54,7 +52,7 @@ def fit(
     start: Mapping[str, Any] | None = None,
     bounds: Mapping[str, Any] | None = None,
     loss: Loss = "linear",
-    starts: int = 5,
+    starts: int = rules.STARTS,
     method: str = "exact",
 ) -> Fit:
     r"""Contact angle, volume, contact point and more from a measured curve, with honest errors.
@@ -134,7 +132,7 @@ def fit(
     """
     if find_spec("scipy") is None:
         raise ValueError("fit: scipy is not installed; pip install 'pendular[fit]'")
-    one_of("loss", loss, tuple(LOSSES))
+    one_of("loss", loss, tuple(rules.LOSSES))
     count = int(in_range("starts", whole_number("starts", starts, 1), 1, _MOST_STARTS))
     check_pair(pair)
     control = control_of(suction, volume, humidity, liquid)
@@ -155,11 +153,11 @@ def _settled(
     if is_absolute:
         return minimum_of(model, data, errors, loss, starts, None), errors
     height = float(np.max(np.abs(data.force)))
-    size = _FIRST_ERROR * height
+    size = rules.FIRST_ERROR * height
     found = minimum_of(model, data, size * errors, loss, starts, None)
-    for _ in range(_MOST_ROUNDS):
-        told = max(_size_of(model, data, found, errors, loss), _LEAST_ERROR * height)
-        is_settled = abs(told - size) < _SETTLED * size
+    for _ in range(rules.MOST_ROUNDS):
+        told = max(_size_of(model, data, found, errors, loss), rules.LEAST_ERROR * height)
+        is_settled = abs(told - size) < rules.SETTLED * size
         if loss == "linear" and data.rupture is None and data.jump_in is None:  # no size moves the minimum of squares
             rescaled = size / told
             is_settled = True
@@ -178,7 +176,7 @@ def _size_of(model: Model, data: Data, found: Minimum, errors: Floats, loss: Los
     lost = math.sqrt(misses.size / max(misses.size - len(model.unknowns), 1))
     if loss == "linear":
         return lost * float(np.sqrt(np.mean(misses**2)))
-    return lost * _OF_MEDIAN * float(np.median(np.abs(misses)))
+    return lost * rules.OF_MEDIAN * float(np.median(np.abs(misses)))
 
 
 def _told(model: Model, data: Data, found: Minimum, errors: Floats, loss: Loss, is_absolute: bool) -> Fit:
@@ -250,7 +248,7 @@ def _at_bound(unknown: Unknown, value: float) -> str:
     for end, word in ((unknown.low, "lower"), (unknown.high, "upper")):
         if unknown.kind == "cosine" and end == 0.0:
             continue  # told by its upper bound
-        if abs(value - end) <= _AT_BOUND * max(
+        if abs(value - end) <= rules.BOUND_MET * max(
             abs(end), abs(unknown.high - unknown.low) if unknown.kind != "log" else 0.0
         ):
             return f"{unknown.name}: at its {word} bound, {end:.6g} {unknown.unit}".rstrip()

@@ -23,6 +23,7 @@ from ..exact.equations import VOLUME
 from ..exact.sensitivities import Rates, rates_of_force
 from ..exact.state import State
 from ..laws import laws
+from . import rules
 from .unknowns import Unknown, inner, outer
 
 __all__ = ["Data", "Ends", "Model", "Prediction", "beside", "ends_at", "predict", "predict_by_law", "problem_of"]
@@ -30,10 +31,7 @@ __all__ = ["Data", "Ends", "Model", "Prediction", "beside", "ends_at", "predict"
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
-_STEP = 1e-4  # of a variable, for rates by differences
-_TOUCHING = 1e-3  # way beyond rupture that is none, over the length of the curve
 _JUST_BEFORE = 1e-9  # rupture, in parts of its distance
-_LEAST_LEFT = 1e-3  # of a volume that evaporates
 _LAMBDA, _SEPARATION = State._fields.index("force"), State._fields.index("separation")
 
 
@@ -109,7 +107,7 @@ def _held_values(numbers: Mapping[str, float], control: str, time: Floats, tensi
     """Volume at each time; or the suction that would hold the same bridge at the tension of the liquid."""
     if control == "volume":
         volume = numbers["volume"]
-        return np.maximum(volume - numbers["evaporation_rate"] * time, _LEAST_LEFT * volume)
+        return np.maximum(volume - numbers["evaporation_rate"] * time, rules.LEAST_LEFT * volume)
     return np.full(time.shape, numbers["suction"] * tension / numbers["surface_tension"])
 
 
@@ -146,7 +144,7 @@ def predict(model: Model, data: Data, variables: Floats, *, with_rates: bool) ->
     if ends is not None:
         beyond &= place > ends.separation
         force[beyond], rates[beyond] = ends.force, ends.force_rates
-        reached |= beyond & (place - ends.separation < _TOUCHING * np.ptp(place))
+        reached |= beyond & (place - ends.separation < rules.TOUCHING * np.ptp(place))
     return _as_measured(model, data, numbers, force, rates, int(np.count_nonzero(~reached & ~data.broken)), ends)
 
 
@@ -169,8 +167,10 @@ def _rates_of_numbers(
     }
     if problem.held == VOLUME:
         left = held * length**3
-        found["volume"] = np.where(left > _LEAST_LEFT * numbers["volume"], by_held * numbers["volume"] / left, by_held)
-        found["evaporation_rate"] = np.where(left > _LEAST_LEFT * numbers["volume"], -by_held / left * time, 0.0)
+        found["volume"] = np.where(
+            left > rules.LEAST_LEFT * numbers["volume"], by_held * numbers["volume"] / left, by_held
+        )
+        found["evaporation_rate"] = np.where(left > rules.LEAST_LEFT * numbers["volume"], -by_held / left * time, 0.0)
     else:
         found["surface_tension"] = force - by_held
         found["suction"] = by_held
@@ -249,7 +249,7 @@ def predict_by_law(model: Model, data: Data, variables: Floats, *, with_rates: b
     reached = is_known[0]
     if ends is not None:
         place = data.separation + model.at(base)["offset"]
-        reached = reached | (place - ends.separation < _TOUCHING * np.ptp(place))
+        reached = reached | (place - ends.separation < rules.TOUCHING * np.ptp(place))
     return _as_measured(
         model, data, model.at(base), force[0], rates, int(np.count_nonzero(~reached & ~data.broken)), ends
     )
@@ -257,7 +257,7 @@ def predict_by_law(model: Model, data: Data, variables: Floats, *, with_rates: b
 
 def beside(model: Model, base: Floats) -> tuple[Floats, Floats]:
     """Variables, and sets with one of them a step ahead, and a step behind; how far these are apart."""
-    steps = _STEP * np.eye(base.size)
+    steps = rules.STEP * np.eye(base.size)
     ahead, behind = base + steps, base - steps
     for column, unknown in enumerate(model.unknowns):
         if unknown.kind == "cosine":

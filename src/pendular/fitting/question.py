@@ -1,6 +1,5 @@
 """What a fit is asked, read and checked: the curve, the question and its unknowns, the datum of a rupture."""
 
-import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -12,19 +11,15 @@ from ..ask.pair import Pair, check_pair, has_planes
 from ..ask.problem import Control
 from ..ground.check import in_range, one_of, quantity, scalar
 from ..laws import laws
+from . import rules
 from .model import Data, Model
-from .unknowns import NAMES, UNITS, first_offset, unknown_of
+from .unknowns import NAMES, first_offset, unknown_of
 
-__all__ = ["INSTRUMENT", "curve_of", "errors_given", "model_of"]
+__all__ = ["curve_of", "errors_given", "model_of"]
 
 Floats = NDArray[np.float64]
 
-INSTRUMENT = {"offset": 0.0, "force_zero": 0.0, "force_scale": 1.0, "base_slope": 0.0, "evaporation_rate": 0.0}
 _CLOSEST_OF_LAW = 1e-3  # separation over the length of the curve; laws know no overlap
-_STEEP = 100.0  # largest force over the length of the curve, by which a curve beyond the rupture of its model is judged
-_NEIGHBOURS = 3  # steps before and after one, by which it is judged whether it is a jump
-_CLEAR_JUMP = 6.0  # drop of the force beyond its neighbours, over the median of such, that is a rupture
-_OF_UNIFORM = math.sqrt(12.0)
 
 
 def curve_of(
@@ -47,7 +42,9 @@ def curve_of(
     last = np.flatnonzero(~broken)[np.argmax(places[~broken])]
     judged = broken | (places < places[last])
     formed = None if jump_in is None else _place_of("jump_in", jump_in, float(np.median(np.diff(np.sort(places)))))
-    return Data(places, forces, times, broken, judged, times[last : last + 1], datum, formed, _STEEP * height / span)
+    return Data(
+        places, forces, times, broken, judged, times[last : last + 1], datum, formed, rules.STEEP * height / span
+    )
 
 
 def _column(name: str, values: ArrayLike, unit: str, count: int | None) -> Floats:
@@ -69,21 +66,21 @@ def _rupture_of(rupture: Any, places: Floats, forces: Floats) -> tuple[float, fl
     if isinstance(rupture, str):
         one_of("rupture", rupture, ("end", "jump"))
         if rupture == "end":
-            return float(place[-1] + 0.5 * steps[-1]), max(float(steps[-1]), 1e-9 * float(place[-1])) / _OF_UNIFORM
+            return float(place[-1] + 0.5 * steps[-1]), max(float(steps[-1]), 1e-9 * float(place[-1])) / rules.OF_UNIFORM
         drops = -np.diff(force)
         i = int(np.argmax(drops))
-        if not drops[i] > _CLEAR_JUMP * float(np.median(np.abs(drops))):
+        if not drops[i] > rules.CLEAR_JUMP * float(np.median(np.abs(drops))):
             raise ValueError(
                 f"rupture: no clear jump of the force; the largest is {drops[i]:.3g} N at {place[i]:.6g} m"
             )
-        return float(0.5 * (place[i] + place[i + 1])), float(steps[i]) / _OF_UNIFORM
+        return float(0.5 * (place[i] + place[i + 1])), float(steps[i]) / rules.OF_UNIFORM
     return _place_of("rupture", rupture, float(np.median(steps)))
 
 
 def _place_of(name: str, value: Any, step: float) -> tuple[float, float]:
     """A separation and its standard error, which by default is that of a place between two points."""
     if not isinstance(value, tuple):
-        return scalar(name, value, "m"), step / _OF_UNIFORM
+        return scalar(name, value, "m"), step / rules.OF_UNIFORM
     if len(value) != 2:
         raise ValueError(f"{name}: a tuple of {len(value)} is not (separation, standard error)")
     error = in_range(f"{name}[1]", scalar(f"{name}[1]", value[1], "m"), 0.0, brackets="()", unit="m")
@@ -127,10 +124,10 @@ def model_of(
     numbers = (control.value, *pair.radii, *pair.contact_angles)
     if any(np.ndim(number) for number in numbers):
         raise ValueError(f"pair: an array of radii, angles or {named} is given where single numbers are needed")
-    question = dict(INSTRUMENT)
+    question = dict(rules.INSTRUMENT)
     for name, value in _mapping("start", start).items():
-        one_of("start", name, tuple(INSTRUMENT))
-        question[name] = scalar(f"start[{name}]", value, UNITS[name])
+        one_of("start", name, tuple(rules.INSTRUMENT))
+        question[name] = scalar(f"start[{name}]", value, rules.UNITS[name])
     question |= {f"radius{i}": float(radius) for i, radius in enumerate(pair.radii, 1)}
     question |= {f"contact_angle{i}": float(angle) for i, angle in enumerate(pair.contact_angles, 1)}
     question |= {control.name: float(control.value), "surface_tension": liquid.surface_tension}

@@ -2,33 +2,20 @@
 
 from collections.abc import Callable
 from contextlib import suppress
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from . import rules
 from .formation import formation_at
 from .model import Data, Ends, Model, Prediction, predict, predict_by_law
+from .rules import Loss
 from .unknowns import inner
 
-__all__ = ["LOSSES", "Loss", "Minimum", "Misses", "gain_of", "limits_of", "minimum_of", "scores_of"]
+__all__ = ["Minimum", "Misses", "gain_of", "limits_of", "minimum_of", "scores_of"]
 
 Floats = NDArray[np.float64]
-Loss = Literal["linear", "soft_l1", "huber", "cauchy"]
-
-LOSSES: dict[Loss, float] = {
-    "linear": 1.0,
-    "soft_l1": 1.5,
-    "huber": 1.345,
-    "cauchy": 2.385,
-}  # errors that count in full
-_SEED = 20360
-_NEARLY, _SLIGHT = 3.0, 20.0  # times the least loss, and more, up to which another place may be the best on all points
-_SAME = 0.03  # difference of the variables of two places that are one
-_FEW = 12  # points on which starts are tried
-_SCAN: dict[str, Any] = {"xtol": 1e-4, "ftol": 1e-4, "gtol": 1e-6, "max_nfev": 15}
-_POLISH: dict[str, Any] = {"xtol": 1e-9, "ftol": 1e-11, "gtol": 1e-10, "max_nfev": 200}
-_SPREAD = {"log": 1.5, "humidity": 1.5, "linear": 0.1}  # of starts, in the variable
 
 
 class Minimum(NamedTuple):
@@ -130,7 +117,7 @@ class Misses:
 
 def scores_of(loss: Loss, residuals: Floats) -> Floats:
     """First derivatives of the loss."""
-    square = (residuals / LOSSES[loss]) ** 2
+    square = (residuals / rules.LOSSES[loss]) ** 2
     if loss == "soft_l1":
         return residuals / np.sqrt(1.0 + square)
     if loss == "huber":
@@ -148,7 +135,7 @@ def gain_of(loss: Loss, residuals: Floats) -> Floats:
     >>> gain_of("huber", np.array([0.5, 3.0]))
     array([1., 0.])
     """
-    square = (residuals / LOSSES[loss]) ** 2
+    square = (residuals / rules.LOSSES[loss]) ** 2
     gains: dict[Loss, Floats] = {
         "linear": np.ones_like(square),
         "soft_l1": (1.0 + square) ** -1.5,
@@ -167,12 +154,12 @@ def minimum_of(model: Model, data: Data, errors: Floats, loss: Loss, starts: int
     if starts > 1:
         few = _few_of(data)
         scan = Misses(model, few, errors[_chosen(data)])
-        tried = [_searched(scan, first, low, high, loss, _SCAN)]
+        tried = [_searched(scan, first, low, high, loss, rules.SCAN)]
         for start in _starts(model, data, first, low, high, starts):
             with suppress(ValueError):  # where there is no answer
-                tried.append(_searched(scan, start, low, high, loss, _SCAN))
+                tried.append(_searched(scan, start, low, high, loss, rules.SCAN))
         likeliest, evaluations = _apart(sorted(tried, key=lambda one: float(one.cost))), scan.evaluations
-    polished = [_searched(misses, place, low, high, loss, _POLISH) for place in likeliest]
+    polished = [_searched(misses, place, low, high, loss, rules.POLISH) for place in likeliest]
     best = min(polished, key=lambda one: float(one.cost))
     prediction, residuals, rates = misses.told(best.x)
     evaluations += misses.evaluations
@@ -181,8 +168,8 @@ def minimum_of(model: Model, data: Data, errors: Floats, loss: Loss, starts: int
 
 def _apart(tried: list[Any]) -> list[Floats]:
     """The best place, and the next best, if it is another one and nearly as good."""
-    best, most = tried[0].x, _NEARLY * float(tried[0].cost) + _SLIGHT
-    other = [one.x for one in tried[1:] if np.max(np.abs(one.x - best)) > _SAME and one.cost < most]
+    best, most = tried[0].x, rules.NEARLY * float(tried[0].cost) + rules.SLIGHT
+    other = [one.x for one in tried[1:] if np.max(np.abs(one.x - best)) > rules.SAME and one.cost < most]
     return [best, *other[:1]]
 
 
@@ -195,7 +182,7 @@ def _searched(misses: Misses, start: Floats, low: Floats, high: Floats, loss: Lo
         jac=misses.searched_rates,
         bounds=(low, high),
         loss=loss,
-        f_scale=LOSSES[loss],
+        f_scale=rules.LOSSES[loss],
         x_scale="jac",
         **stops,
     )
@@ -205,7 +192,7 @@ def _chosen(data: Data) -> NDArray[np.int_]:
     """Some of the points, evenly along the curve, with its end."""
     order = np.argsort(data.separation, kind="stable")
     order = order[~data.broken[order]]
-    chosen: NDArray[np.int_] = order[np.unique(np.linspace(0, order.size - 1, _FEW).round().astype(int))]
+    chosen: NDArray[np.int_] = order[np.unique(np.linspace(0, order.size - 1, rules.FEW).round().astype(int))]
     return chosen
 
 
@@ -231,7 +218,7 @@ def _starts(model: Model, data: Data, first: Floats, low: Floats, high: Floats, 
 
     Half of them begin in contact, for the zero of a stage may be anywhere.
     """
-    random = np.random.default_rng(_SEED)
+    random = np.random.default_rng(rules.SEED)
     starts = []
     touching = first.copy()
     for i, unknown in enumerate(model.unknowns):
@@ -243,6 +230,6 @@ def _starts(model: Model, data: Data, first: Floats, low: Floats, high: Floats, 
             if unknown.kind == "cosine":
                 place[i] = np.cos(random.uniform(0.0, 0.5 * np.pi))
             else:
-                place[i] += random.uniform(-1.0, 1.0) * _SPREAD[unknown.kind]
+                place[i] += random.uniform(-1.0, 1.0) * rules.SPREAD[unknown.kind]
         starts.append(np.clip(place, low, high))
     return starts

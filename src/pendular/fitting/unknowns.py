@@ -11,35 +11,15 @@ from typing import Literal, NamedTuple
 from ..ask.domain import DEEPEST_OVERLAP, LEAST_VOLUME, MOST_SUCTION, MOST_VOLUME
 from ..ask.liquid import Liquid, suction_from_humidity
 from ..ground.check import in_range, scalar
+from . import rules
 
-__all__ = ["NAMES", "UNITS", "Kind", "Unknown", "first_offset", "inner", "outer", "slope", "unknown_of"]
+__all__ = ["NAMES", "Kind", "Unknown", "first_offset", "inner", "outer", "slope", "unknown_of"]
 
 Kind = Literal["cosine", "log", "humidity", "linear"]
 
-UNITS = {
-    "contact_angle": "rad",
-    "contact_angle1": "rad",
-    "contact_angle2": "rad",
-    "volume": "m^3",
-    "suction": "Pa",
-    "humidity": "",
-    "surface_tension": "N/m",
-    "radius": "m",
-    "radius1": "m",
-    "radius2": "m",
-    "offset": "m",
-    "force_zero": "N",
-    "force_scale": "",
-    "base_slope": "N/m",
-    "evaporation_rate": "m^3/s",
-}
-NAMES = tuple(UNITS)
+NAMES = tuple(rules.UNITS)
 
 _SINGLE = ("1", "2")
-_FARTHEST = 1e3  # of a positive number from its guess, as a factor
-_WETS = 1.0 - 1e-12  # cosine of an angle of nothing
-_INSIDE = 1.01  # factor from the ends of the domain of the solver, for differences
-_STRAIGHT = math.pi * (1.0 - 1e-9)  # largest contact angle
 
 
 class Unknown(NamedTuple):
@@ -57,7 +37,7 @@ class Unknown(NamedTuple):
     @property
     def unit(self) -> str:
         """SI unit."""
-        return UNITS[self.name]
+        return rules.UNITS[self.name]
 
 
 def inner(unknown: Unknown, value: float) -> float:
@@ -81,7 +61,7 @@ def inner(unknown: Unknown, value: float) -> float:
 def outer(unknown: Unknown, variable: float) -> float:
     """The value of a variable."""
     if unknown.kind == "cosine":
-        return 0.0 if variable > _WETS else min(math.acos(max(-1.0, variable)), _STRAIGHT)
+        return 0.0 if variable > rules.WETS else min(math.acos(max(-1.0, variable)), rules.STRAIGHT)
     if unknown.kind == "log":
         return math.exp(variable)
     if unknown.kind == "humidity":
@@ -119,9 +99,9 @@ def unknown_of(
     scale = scales.get(name, abs(guess) or 1.0)
     low, high = _domain(name, kind, guess, question, scales, scale)
     if bounds is not None:
-        ends = _pair_of(f"bounds[{name}]", bounds, UNITS[name])
+        ends = _pair_of(f"bounds[{name}]", bounds, rules.UNITS[name])
         low, high = max(ends[0], low), min(ends[1], high)
-    in_range(name, guess, low, high, unit=UNITS[name])
+    in_range(name, guess, low, high, unit=rules.UNITS[name])
     if not low < high:
         raise ValueError(f"bounds[{name}]: {bounds!r} leave no room")
     return Unknown(name, kind, moves, scale, guess, low, high, constant)
@@ -178,8 +158,10 @@ def _least_offset(question: Mapping[str, float], scales: Mapping[str, float]) ->
     smaller, span = min(question["radius1"], question["radius2"]), scales["offset"]
     closest = scales.get("closest")
     if closest is None:
-        closest = -0.99 * DEEPEST_OVERLAP * smaller if math.isfinite(smaller) else 1e-3 * span
-    return max(closest - scales["least"], -10.0 * span - abs(scales["least"]))
+        closest = (
+            -rules.JUST_TOUCHING * DEEPEST_OVERLAP * smaller if math.isfinite(smaller) else rules.PLANES_APART * span
+        )
+    return max(closest - scales["least"], -rules.FARTHEST_OFFSET * span - abs(scales["least"]))
 
 
 def _domain(
@@ -187,19 +169,19 @@ def _domain(
 ) -> tuple[float, float]:
     """Where a value has a meaning and the solver an answer."""
     if kind == "cosine":
-        return 0.0, _STRAIGHT
+        return 0.0, rules.STRAIGHT
     if kind == "humidity":
-        return 1e-6, 1.0 - 1e-12
+        return rules.HUMIDITIES
     smaller = min(question["radius1"], question["radius2"])
     if name == "offset":
-        return _least_offset(question, scales), 10.0 * scale + max(-scales["least"], 0.0)
+        return _least_offset(question, scales), rules.FARTHEST_OFFSET * scale + max(-scales["least"], 0.0)
     if kind == "linear":
-        return -100.0 * scale, 100.0 * scale
-    low, high = guess / _FARTHEST, guess * _FARTHEST
+        return -rules.FARTHEST_LINEAR * scale, rules.FARTHEST_LINEAR * scale
+    low, high = guess / rules.FARTHEST, guess * rules.FARTHEST
     if math.isfinite(smaller):
         mean = 2.0 / (1.0 / question["radius1"] + 1.0 / question["radius2"])
         if name == "volume":
-            low, high = max(low, _INSIDE * LEAST_VOLUME * mean**3), min(high, MOST_VOLUME * mean**3 / _INSIDE)
+            low, high = max(low, rules.INSIDE * LEAST_VOLUME * mean**3), min(high, MOST_VOLUME * mean**3 / rules.INSIDE)
         if name == "suction":
-            high = min(high, MOST_SUCTION * question["surface_tension"] / mean / _INSIDE)
+            high = min(high, MOST_SUCTION * question["surface_tension"] / mean / rules.INSIDE)
     return low, high

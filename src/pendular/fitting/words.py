@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from ..ground.units import scale_of
-from .unknowns import UNITS
+from .rules import UNITS
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

@@ -6,8 +6,12 @@ from collections.abc import Iterator
 from ...ask.domain import length_unit
 from ...exact.algebra import Four
 from ...exact.answers import LOWER_END, holds_nothing
+from ...exact.equations import VOLUME
 from ...exact.follow import BRANCH_ENDS
 from ...exact.meridian import lay_meridian
+from ...exact.morph import held_of
+from ...exact.sensitivities import Rates, rates_at
+from ...exact.state import State
 from ...exact.tracing import trace
 from ...ground.compile import kernel
 from ...ground.linkable import Array, Count, Function, Integer, Real
@@ -20,6 +24,9 @@ __all__ = ["ASKED", "functions"]
 
 _NODE = 4  # numbers of a place on the way along a branch
 ASKED: tuple[Quantity, ...] = ("force", "rupture")  # of a law
+_SEPARATION, _MIDDLE, _SLOPE, _LENGTH, _CURVATURE = (
+    State._fields.index(name) for name in ("separation", "middle_radius", "middle_slope", "half_length", "curvature")
+)
 
 
 @kernel
@@ -46,6 +53,30 @@ def curve(control: int, held: float, pairs: Floats, states: Floats, nodes: Float
 
 
 @kernel
+def force_rates(control: int, held: float, pairs: Floats, states: Floats, rates: Floats) -> int:
+    """Rates of the force of the bridge that a state holds; those in the radii are in their logarithms."""
+    pair, state, found = pairs[0], states[0], rates[0]
+    found[:] = math.nan
+    if not is_fit(control, float(state[_SEPARATION]), held, pair):
+        return BAD_INPUT
+    if not (state[_MIDDLE] > 0.0 and state[_LENGTH] > 0.0):
+        return NO_BRIDGE
+    length = length_unit(control, held, pair[0], pair[1])
+    task = kernels.task_of(control, float(state[_SEPARATION]), held, length, pair)
+    turn = state[_CURVATURE] * state[_LENGTH]
+    z = Four(math.log(state[_MIDDLE] / length), state[_SLOPE], math.log(state[_LENGTH] / length), turn)
+    reduced = rates_at(z, held_of(task))
+    unit = 2.0 * math.pi * pair[4] * length
+    found[0] = unit * reduced.separation / length
+    found[1] = unit * reduced.held * (1.0 / (length * length * length) if control == VOLUME else length / pair[4])
+    found[2] = -unit * reduced.curvature1 * task.curvature1
+    found[3] = unit * reduced.cos_angle1
+    found[4] = -unit * reduced.curvature2 * task.curvature2
+    found[5] = unit * reduced.cos_angle2
+    return FOUND
+
+
+@kernel
 def meridian(arc: Floats, place: Floats, radius: Floats) -> int:
     """Place from the first end and radius along the arc with a middle radius, slope, half length and curvature."""
     middle, slope, length, curvature = arc[0], arc[1], arc[2], arc[3]
@@ -61,6 +92,7 @@ def functions() -> tuple[Function, ...]:
     drawn = (
         Function("pendular_lower_end", lower_end, (*branch, STATES)),
         Function("pendular_curve", curve, (*branch, Count(), STATES, Count(), Array(_NODE))),
+        Function("pendular_force_rates", force_rates, (*branch, STATES, Array(len(Rates._fields)))),
         Function("pendular_meridian", meridian, (Array(), Count(), Array(), Array())),
     )
     return (*kernels.FUNCTIONS, *drawn, *_laws())

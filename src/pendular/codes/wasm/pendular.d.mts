@@ -52,6 +52,20 @@ export interface Rows {
   numbers: Float64Array;
 }
 
+/** How the force of a bridge follows each number of its question, the others held. */
+export interface ForceRates {
+  /** [N/m] */
+  separation: number;
+  /** In the suction, [N/Pa], or in the volume, [N/m3]. */
+  held: number;
+  /** In the logarithm of a radius, 0 for a plane. [N] */
+  logRadius1: number;
+  logRadius2: number;
+  /** In the cosine of a contact angle, which is regular at 0. [N] */
+  cosAngle1: number;
+  cosAngle2: number;
+}
+
 /** What a law gives; the control is its own, a suction or a volume. NaN outside of its domain. */
 export interface Law {
   /** F/(2πγR̄), 0 beyond rupture. */
@@ -75,6 +89,8 @@ export interface Solver {
   lowerEnd(pair: Pair, liquid: Liquid): Bridge | null;
   /** From contact, or the lower end, to rupture in the middle, and down the unstable branch; 201 points if not told. */
   curve(pair: Pair, liquid: Liquid, points?: number): (Bridge | null)[];
+  /** How the force of a bridge follows the numbers of its question, which is given again. */
+  forceRates(pair: Pair, bridge: Bridge, liquid: Liquid): ForceRates;
   /** The meridian to draw: the facing poles lie at x = 0 and x = separation; 161 points if not told. [m] */
   profile(pair: Pair, bridge: Bridge, points?: number): { x: Float64Array; y: Float64Array };
   /** Published laws by their names, reduced by the Derjaguin radius as in Python. */

@@ -21,6 +21,7 @@ const IMPORTS = ["acos", "asin", "atan", "atan2", "cos", "exp", "hypot", "log", 
 const PAIR_NUMBERS = 5;
 const MOST_NODES = ${most_nodes}; // on the way along a branch
 const NODE_NUMBERS = 4;
+const RATES = ["separation", "held", "logRadius1", "cosAngle1", "logRadius2", "cosAngle2"];
 const BYTES = 8;
 const LAW = /^law_(.+)_(force|rupture)$$/;
 
@@ -86,6 +87,18 @@ function solver(module) {
     return states.map((state) => (Number.isNaN(state.separation) ? null : state));
   }
 
+  function forceRates(pair, bridge, liquid) {
+    makeRoom(RATES.length);
+    const { radius, slope, halfLength, curvature } = bridge.meridian;
+    numbers[stateAt + AT.separation] = bridge.separation;
+    numbers[stateAt + AT.middle_radius] = radius;
+    numbers[stateAt + AT.middle_slope] = slope;
+    numbers[stateAt + AT.half_length] = halfLength;
+    numbers[stateAt + AT.curvature] = curvature;
+    statusOf(pair, liquid, (...places) => module.pendular_force_rates(...places, BYTES * roomAt));
+    return Object.fromEntries(RATES.map((name, i) => [name, numbers[roomAt + i]]));
+  }
+
   function profile(pair, state, points = 161) {
     if (!(Number.isInteger(points) && points >= 3)) throw new RangeError("points: give a whole number, 3 or more");
     const { radius, slope, halfLength, curvature } = state.meridian;
@@ -136,6 +149,7 @@ function solver(module) {
     rupture: (pair, liquid) => asked(pair, liquid, module.pendular_rupture),
     lowerEnd: (pair, liquid) => asked(pair, liquid, module.pendular_lower_end),
     curve,
+    forceRates,
     profile,
     laws: lawsOf(module),
   };

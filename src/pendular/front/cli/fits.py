@@ -137,7 +137,7 @@ def _subtitle(found: "Fit") -> str:
 
 def _facts(found: "Fit") -> dict[str, Any]:
     """A fit as plain data, with the units of its numbers."""
-    from ...fitting.unknowns import UNITS
+    from ...fitting.rules import UNITS
 
     named = (
         "values",
@@ -183,7 +183,7 @@ def _place(name: str, text: str | None) -> Any:
 
 def _bound(text: str) -> tuple[str, tuple[float, float]]:
     """Name and bounds of what is free."""
-    from ...fitting.unknowns import UNITS
+    from ...fitting.rules import UNITS
     from ...ground.check import one_of
 
     option, equals, ends = text.partition("=")
@@ -197,7 +197,7 @@ def _bound(text: str) -> tuple[str, tuple[float, float]]:
 
 def _end(name: str, text: str) -> float:
     """One end of some bounds, in SI units."""
-    from ...fitting.unknowns import UNITS
+    from ...fitting.rules import UNITS
 
     if name.startswith("contact_angle"):
         return math.radians(read_contact_angle("bounds", text))

@@ -1,4 +1,4 @@
-"""The page as files: one of HTML with style, words, solver and laws, one of the heap, and one that keeps it offline.
+"""The page as files: one of HTML with style, words, solver, laws and fit, one of the heap, and one for use offline.
 
 Nothing is a module for the browser, which loads none from a disk: the pair is in the file of HTML, the view of a heap
 in a plain script that is loaded when it is first asked for.
@@ -10,6 +10,7 @@ import json
 import re
 from importlib.resources import files
 from pathlib import Path
+from typing import Any
 from urllib.parse import quote
 
 from ... import __version__
@@ -23,33 +24,18 @@ __all__ = ["page_files", "write_page"]
 
 # Each after those that it imports.
 _MODULES = (
-    "units",
-    "liquids",
-    "view",
-    "answer",
-    "tracks",
-    "picture",
-    "chart",
-    "map",
-    "words",
-    "fields",
-    "views",
-    "main",
+    *("units", "liquids", "view", "answer", "tracks", "picture", "chart", "map", "words", "fields", "views"),
+    *("general", "curve_text", "fit_chart", "fit_words", "fit_panel", "main"),
 )
 _HEAP_MODULES = (
-    "grains",
-    "pairs",
-    "wetted",
-    "curves",
-    "space",
-    "raster",
-    "scene",
-    "heap_view",
-    "heap_answer",
-    "retention_chart",
-    "heap_words",
-    "heap",
+    *("grains", "pairs", "wetted", "curves", "space", "raster", "scene"),
+    *("heap_view", "heap_answer", "retention_chart", "heap_words", "heap"),
 )
+# Those of the worker that fits, which the page reads when it needs them.
+_FIT_MODULES = (
+    *("general", "linear", "least_squares", "fit_unknowns", "fit_model", "fit_errors", "fit_search", "fit_worker"),
+)
+_OF_A_FIT = ("domain", "fitting")  # records
 _IMPORT = re.compile(r"^import [^;]*;\n", re.MULTILINE)
 _SHARED = re.compile(r"^import \{([^}]*)\} from \"\.\./(\w+)\.mjs\";\n", re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=async |const |function )", re.MULTILINE)
@@ -70,6 +56,7 @@ def page_files() -> dict[str, bytes]:
         icon=quote(logo),
         logo=logo,
         style=_filled("style.css", palette=_palette()),
+        fit=_fit_script(),
         script=_script(wasm.module()),
         version=__version__,
     ).encode()
@@ -90,45 +77,55 @@ def write_page(folder: Path) -> list[Path]:
 def _script(module: bytes) -> str:
     """All modules of the pair as one, which browsers load from a disk as well."""
     encoded = base64.b64encode(module).decode()
-    shared = ", ".join(_shared_names())
     return _joined(
         wasm.script(),
-        f"const RECORDS = {_as_json(records())};",
+        _told("RECORDS", records()),
         f'const MODULE = Uint8Array.from(atob("{encoded}"), (letter) => letter.charCodeAt(0));',
-        f"const SHARED = () => ({{ {shared} }});",
-        *(_text(f"{name}.mjs") for name in _MODULES),
+        f"const SHARED = () => ({{ {_shared_names()} }});",
+        *map(_module, _MODULES),
     ).replace("</", "<\\/")
+
+
+def _fit_script() -> str:
+    """The modules of the worker that fits as one; it is sent the bytes of the solver.
+
+    It is no module, which a page from a disk may not start as a worker.
+    """
+    known = records()
+    solver = wasm.script().replace("import.meta.url", "location.href")
+    told = _told("RECORDS", {name: known[name] for name in _OF_A_FIT})
+    return _joined('"use strict";', solver, told, *map(_module, _FIT_MODULES)).replace("</", "<\\/")
 
 
 def _heap_script() -> str:
     """All modules of the heap as a plain script: one function of what they take from the page."""
     told = {**heap_records(), "html": _text("heap/heap.html"), "style": _text("heap/heap.css")}
-    body = _joined(
-        f"const HEAP_RECORDS = {_as_json(told)};",
-        f"const PACKINGS = {_as_json(packings())};",
-        *_heap_modules(),
-    )
-    shared = ", ".join(_shared_names())
-    return f'"use strict";\nwindow.explorer.makeHeap = ({{ {shared} }}) => {{\n{body}\nreturn makeHeap();\n}};\n'
+    body = _joined(_told("HEAP_RECORDS", told), _told("PACKINGS", packings()), *_heap_modules())
+    head = f"window.explorer.makeHeap = ({{ {_shared_names()} }}) => {{"
+    return f'"use strict";\n{head}\n{body}\nreturn makeHeap();\n}};\n'
 
 
 def _heap_modules() -> list[str]:
-    return [_text(f"heap/{name}.mjs") for name in _HEAP_MODULES]
+    return [_module(f"heap/{name}") for name in _HEAP_MODULES]
 
 
-def _shared_names() -> list[str]:
+def _shared_names() -> str:
     """What the modules of the heap import from those of the page."""
     found = [names for text in _heap_modules() for names, _ in _SHARED.findall(text)]
-    return sorted({name.strip() for names in found for name in names.split(",") if name.strip()})
+    return ", ".join(sorted({name.strip() for names in found for name in names.split(",") if name.strip()}))
 
 
 def _joined(*parts: str) -> str:
     return "\n".join(_EXPORT.sub("", _IMPORT.sub("", part)) for part in parts)
 
 
-def _as_json(known: object) -> str:
-    """With Infinity, which is a number in JavaScript."""
-    return json.dumps(known, ensure_ascii=False, separators=(",", ":"))
+def _told(name: str, known: Any) -> str:
+    """Records as JavaScript, where an infinite number is one."""
+    return f"const {name} = {json.dumps(known, ensure_ascii=False, separators=(',', ':'))};"
+
+
+def _module(name: str) -> str:
+    return _text(f"{name}.mjs")
 
 
 def _text(name: str) -> str:

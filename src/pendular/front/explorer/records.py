@@ -2,10 +2,13 @@
 
 from typing import Any
 
+import numpy as np
+
 from ... import __version__
 from ...ask import domain, kept_liquids, liquid
 from ...ask.result import FIELDS
 from ...codes.wasm.functions import ASKED
+from ...fitting import rules
 from ...laws import Law
 from ...laws._registry import house_laws
 from ...laws.ranges import asked_ranges
@@ -65,7 +68,14 @@ def records() -> dict[str, Any]:
             "mostVolume": domain.MOST_VOLUME,
             "mostSuction": domain.MOST_SUCTION,
         },
+        "fitting": {name: getattr(rules, name) for name in rules.__all__ if name.isupper()} | {"RANDOM": _random()},
     }
+
+
+def _random() -> list[float]:
+    """Random numbers of the starts of a fit, as many as are ever drawn."""
+    random: list[float] = np.random.default_rng(rules.SEED).random((rules.STARTS - 1) * len(rules.UNITS)).tolist()
+    return random
 
 
 def _law(law: Law) -> dict[str, Any]:

@@ -3,6 +3,7 @@
 import { answerTo, heldInstead, lawsAt, percent } from "./answer.mjs";
 import { chartOf, lawLine } from "./chart.mjs";
 import { fieldBox, markRight, markWrong } from "./fields.mjs";
+import { fitPanel } from "./fit_panel.mjs";
 import { liquidNames } from "./liquids.mjs";
 import { drawMap, MAP_DEGREES, MAP_MARGIN, mapChoices, mapFrame, mapKey, mapSides, valueAtShare } from "./map.mjs";
 import { pictureOf, solidsInWords, VIEW_BOX } from "./picture.mjs";
@@ -34,6 +35,7 @@ const at = (id) => document.getElementById(id);
 export const exact = await load(MODULE);
 const fields = {};
 let answer; // what is shown
+let fitting; // the panel of a measured curve
 let picture;
 let chart;
 let stopMap = () => {};
@@ -342,6 +344,7 @@ function showSoon() {
   fill(at("numbers"), numbersOf(answer));
   at("command").textContent = commandOf(answer.view);
   at("program").textContent = programOf(answer);
+  fitting?.follow();
   for (const { law, forceError, ruptureError, outside } of lawsAt(answer, exact)) {
     const row = at("laws").querySelector(`[data-law="${law.name}"]`);
     const cells = row.querySelectorAll("td");
@@ -528,6 +531,7 @@ function skip(event) {
 /** What the page computes, for the console of a browser. */
 window.explorer = {
   picture: () => picture,
+  fit: () => fitting.found(),
   answerAt(hash) {
     const answer = answerTo(viewAt(hash), exact);
     const { question, state, rupture, lowerEnd } = answer;
@@ -538,6 +542,7 @@ window.explorer = {
 
 layOut();
 begin();
+fitting = fitPanel({ answerNow: () => answer, change, solver: exact, module: MODULE, save });
 listen();
 if ("serviceWorker" in navigator && location.protocol.startsWith("http"))
   navigator.serviceWorker.register("offline.js");

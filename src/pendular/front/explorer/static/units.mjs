@@ -2,10 +2,19 @@
 
 const NUMBER = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*$/i;
 const DECADES = { "": 0, f: -15, p: -12, n: -9, u: -6, µ: -6, μ: -6, m: -3, c: -2, d: -1, h: 2, k: 3, M: 6, G: 9 };
-const PREFIXED = /^(f|p|n|u|µ|μ|m|c|d|h|k|M|G)?(m|L|l|Pa|bar|N)$/;
+const PREFIXED = /^(f|p|n|u|µ|μ|m|c|d|h|k|M|G)?(m|L|l|Pa|bar|N|dyn|s)$/;
 
 // SI unit of each base, and its size in it.
-const BASES = { m: ["m", 1], L: ["m^3", 1e-3], l: ["m^3", 1e-3], Pa: ["Pa", 1], bar: ["Pa", 1e5], N: ["N", 1] };
+const BASES = {
+  m: ["m", 1],
+  L: ["m^3", 1e-3],
+  l: ["m^3", 1e-3],
+  Pa: ["Pa", 1],
+  bar: ["Pa", 1e5],
+  N: ["N", 1],
+  dyn: ["N", 1e-5],
+  s: ["s", 1],
+};
 const SINGLE = {
   Å: ["m", 1e-10],
   angstrom: ["m", 1e-10],
@@ -17,6 +26,9 @@ const SINGLE = {
   mmHg: ["Pa", 133.322387415],
   torr: ["Pa", 101325 / 760],
   "dyn/cm": ["N/m", 1e-3],
+  min: ["s", 60],
+  h: ["s", 3600],
+  d: ["s", 86400],
   deg: ["deg", 1],
   rad: ["deg", 180 / Math.PI],
   K: ["K", 1],
@@ -74,7 +86,7 @@ function split(name, text, example) {
 }
 
 /** SI unit and size of a unit as it is written, undefined for one that is not known. */
-function sizeOf(own) {
+export function sizeOf(own) {
   if (Object.hasOwn(SINGLE, own)) return SINGLE[own];
   const cube = /^(.*?)(?:\^3|\*\*3|³)$/.exec(own);
   const perMetre = /^(.*)\/m$/.exec(own);

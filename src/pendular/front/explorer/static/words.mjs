@@ -80,17 +80,32 @@ function valueIn(name, state, question) {
 // -- To take away -------------------------------------------------------------------------------------------------------
 
 /** Command that prints the same answer. */
-export function commandOf(view) {
+export const commandOf = (view) => `pendular bridge ${optionWords(optionsOf(view))}`;
+
+/** Options as words of a shell. */
+export function optionWords(options) {
   const quoted = (text) => (/^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replaceAll("'", `'"'"'`)}'`);
-  return [
-    "pendular bridge",
-    ...Object.entries(optionsOf(view)).map(([name, text]) => `--${name} ${quoted(text)}`),
-  ].join(" ");
+  return Object.entries(options)
+    .map(([name, text]) => `--${name} ${quoted(text)}`)
+    .join(" ");
 }
 
 /** Program that prints the same force. */
 export function programOf({ question }) {
-  const { pair, degrees, liquid, control, value, separation } = question;
+  const { control, value, separation } = question;
+  return [
+    "import numpy as np",
+    "import pendular as pl",
+    "",
+    ...solidsInPython(question),
+    `b = pl.bridge(pair, ${python(separation)}, ${control}=${python(value)}, liquid=liquid)`,
+    'print(f"{b.force:.6e} N")',
+    "",
+  ].join("\n");
+}
+
+/** Lines of a program that make the pair and the liquid. */
+export function solidsInPython({ pair, degrees, liquid }) {
   const both = (first, second) => (first === second ? first : `(${first}, ${second})`);
   const radii = both(...pair.radius.map((radius) => (radius === Infinity ? "np.inf" : python(radius))));
   const angles = both(...degrees.map((angle) => `np.deg2rad(${python(rounded(angle, 15))})`));
@@ -98,16 +113,7 @@ export function programOf({ question }) {
     liquid.temperature === undefined
       ? `pl.Liquid(surface_tension=${python(liquid.surfaceTension)})`
       : `pl.Liquid.named("${liquid.name}", temperature=${python(liquid.temperature)})`;
-  return [
-    "import numpy as np",
-    "import pendular as pl",
-    "",
-    `pair = pl.Pair(radius=${radii}, contact_angle=${angles})`,
-    `liquid = ${wetting}`,
-    `b = pl.bridge(pair, ${python(separation)}, ${control}=${python(value)}, liquid=liquid)`,
-    'print(f"{b.force:.6e} N")',
-    "",
-  ].join("\n");
+  return [`pair = pl.Pair(radius=${radii}, contact_angle=${angles})`, `liquid = ${wetting}`];
 }
 
 /** A number as Python has a float. */
