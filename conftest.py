@@ -35,6 +35,7 @@ FILES = {
     "tests/test_lammps_examples.py": "lammps",
     "tests/test_explorer_page.py": "page",
     "tests/test_explorer_fit_page.py": "page",
+    "tests/test_explorer_heap_page.py": "page",
 }
 
 

@@ -2,6 +2,7 @@
 
 import csv
 import io
+import itertools
 import json
 import re
 import shutil
@@ -60,7 +61,8 @@ const ASKS = {
     const view = heapAt(asked.hash);
     const answer = heapAnswerTo(view, asked.own, solver);
     const range = rangeOf(answer);
-    return { hash: heapHashOf(view), values: answer.values, range, program: heapProgramOf(answer, range, 5) };
+    const { values, notices } = answer;
+    return { hash: heapHashOf(view), values, notices, range, program: heapProgramOf(answer, range, 5) };
   },
 };
 const answers = JSON.parse(readFileSync(0)).map((asked) => {
@@ -269,6 +271,25 @@ def test_the_program_gives_the_same_numbers(answers_of, tmp_path, monkeypatch, c
     assert len(names["w"].bridges) == found["values"]["bridges"]
     assert f"{found['values']['bridges']} bridges, saturation " in capsys.readouterr().out
     assert names["curves"].suction.values[[0, -1]] == pytest.approx([found["range"]["low"], found["range"]["high"]])
+
+
+def test_what_positions_do_not_tell_is_told_as_python_tells_it(answers_of):
+    asked, wanted = [], []
+    for digits in (1, 2, 5, 9):
+        for stretch, suction in itertools.product((1.01, 1.0, 0.97), (1e4, 1e6, 2e7)):
+            heap = packed("close", 50.0)
+            heap = pl.Packing((heap.positions * stretch).round(digits), 50.0, cell=heap.cell * stretch)
+            told = f"packing=own&contact-angle=20&surface-tension=70mN/m&suction={suction!r}Pa"
+            asked.append({"ask": "view", "hash": told, "own": {"text": lines_of(heap), "unit": "um"}})
+            metres = pl.Packing(heap.positions * 1e-6, 50e-6, cell=heap.cell * 1e-6)
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                pl.wet(metres, np.deg2rad(20.0), suction=suction, liquid=pl.Liquid(surface_tension=0.07))
+            wanted.append([str(one.message).partition(":")[2].split()[0] for one in caught])
+    found = [[notice.removeprefix("The ").split()[0] for notice in one["notices"]] for one in answers_of(asked)]
+    print(wanted)
+    assert {"grains", "their"} <= {word for words in wanted for word in words}
+    assert [[{"Grains": "grains", "digits": "their"}[word] for word in words] for words in found] == wanted
 
 
 PAIR = "0 0 0 1\n2 0 0 1\n"

@@ -125,7 +125,7 @@ function listen() {
   addEventListener("hashchange", () => begin());
   document.querySelector(".skip").addEventListener("click", skip);
   const observer = new ResizeObserver(() => {
-    if (!answer) return; // the heap is open
+    if (!answer || at("pair-view").hidden) return; // the heap is open
     measure();
     drawSized();
   });

@@ -5,6 +5,7 @@ import { readQuantity } from "../units.mjs";
 
 export const MOST_GRAINS = 2000; // beyond, a hand on the slider would be felt
 const FEWEST_GRAINS = 2;
+const MANY = 100; // grains of which the digits are looked at; a few may be placed by hand
 const TOUCHING = 1e-9; // of the smallest radius, as in the package
 
 export const packingNames = () => Object.keys(PACKINGS);
@@ -27,13 +28,16 @@ export function packingNamed(name, radius) {
 export function grainsOf(text, unitText) {
   const unit = readQuantity("unit", `1 ${unitText}`, "m", "1mm");
   const rows = [];
+  const places = []; // as they are written
   let cell = null;
   for (const [i, line] of text.split(/\r\n?|\n/).entries()) {
     const words = line.trim().split(/[\s,;]+/).filter(Boolean);
     const start = words[0] === "#" ? 1 : 0;
     if (/^#?cell$/i.test(words[start] ?? "")) cell = numbersOf(words.slice(start + 1), 3, i, line, "cell a b c", unit);
-    else if (words.length && !words[0].startsWith("#") && !(rows.length === 0 && /^["']?x\b/i.test(words[0])))
+    else if (words.length && !words[0].startsWith("#") && !(rows.length === 0 && /^["']?x\b/i.test(words[0]))) {
       rows.push(numbersOf(words, 4, i, line, "x y z r", unit));
+      places.push(...words.slice(0, 3));
+    }
   }
   if (rows.length < FEWEST_GRAINS || rows.length > MOST_GRAINS)
     throw new RangeError(
@@ -46,7 +50,24 @@ export function grainsOf(text, unitText) {
     Float64Array.from(rows.flatMap((row) => row.slice(0, 3))),
     Float64Array.from(rows, ([, , , radius]) => radius),
     cell,
+    unit * cutOf(places),
   );
+}
+
+/** Half a unit of the last digit of the largest coordinates; 0 for a few grains, and for those of a lattice. */
+function cutOf(places) {
+  const sizes = places.map((place) => Math.abs(Number(place)));
+  if (places.length < 3 * MANY || new Set(sizes).size < 0.5 * sizes.length) return 0;
+  const most = sizes.reduce((one, other) => Math.max(one, other));
+  const least = 10 ** Math.floor(Math.log10(most));
+  const ends = places.filter((_, i) => sizes[i] >= least).map(lastPlaceOf);
+  return 0.5 * 10 ** ends.reduce((one, other) => Math.min(one, other));
+}
+
+/** Power of ten of the last digit of a number as it is written. */
+function lastPlaceOf(text) {
+  const [, decimals = "", power = "0"] = /^[+-]?\d*\.?(\d*)(?:e([+-]?\d+))?$/i.exec(text) ?? [];
+  return Number(power) - decimals.length;
 }
 
 function numbersOf(words, count, i, line, wanted, unit) {
@@ -56,7 +77,7 @@ function numbersOf(words, count, i, line, wanted, unit) {
   return numbers.map((number) => number * unit);
 }
 
-function heapOf(positions, radii, cell) {
+function heapOf(positions, radii, cell, cut = 0) {
   const box = cell ?? boxAround(positions, radii);
   const [least, most] = [radii.reduce((a, b) => Math.min(a, b)), radii.reduce((a, b) => Math.max(a, b))];
   return {
@@ -70,6 +91,7 @@ function heapOf(positions, radii, cell) {
     mostRadius: most,
     meanRadius: radii.reduce((sum, radius) => sum + radius, 0) / radii.length,
     rounding: TOUCHING * least,
+    cut, // largest error of a coordinate by its digits, [m]
   };
 }
 

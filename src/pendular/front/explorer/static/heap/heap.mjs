@@ -2,7 +2,7 @@
 
 import { followCurves, PATHS, suctionsBetween, wholeCurvesOf } from "./curves.mjs";
 import { linesOf, packingNames } from "./grains.mjs";
-import { heapAnswerTo, rangeOf } from "./heap_answer.mjs";
+import { heapAnswerTo, rangeOf, usualSuction } from "./heap_answer.mjs";
 import { HEAP_RECORDS } from "./heap_records.mjs";
 import { FIRST_HEAP, heapAt, heapHashOf, OWN, plotted, readSeen, seenAfter } from "./heap_view.mjs";
 import {
@@ -127,6 +127,7 @@ export function makeHeap() {
       change("suction", { grains: event.target.checked ? "clear" : "solid" }),
     );
     at("use").addEventListener("click", () => useOwn(at("text").value));
+    at("file").addEventListener("click", () => (at("file").value = "")); // the same file may have changed
     at("file").addEventListener("change", (event) => readFile(event.target.files[0]));
     at("text").addEventListener("dragover", (event) => event.preventDefault());
     at("text").addEventListener("drop", (event) => {
@@ -164,7 +165,7 @@ export function makeHeap() {
     const before = own;
     own = { text, unit: at("unit").value.trim() };
     try {
-      showHeap(heapAnswerTo({ ...answer.view, packing: OWN }, own, exact, answer));
+      showHeap(heapAnswerTo(viewOfOwn(), own, exact, answer));
       at("text-wrong").textContent = "";
       at("text").removeAttribute("aria-invalid");
     } catch (error) {
@@ -173,6 +174,15 @@ export function makeHeap() {
       at("text-wrong").textContent = error.message;
       at("text").setAttribute("aria-invalid", "true");
     }
+  }
+
+  /** The view with the pasted grains; a suction far from what holds bridges between them gives way to a usual one. */
+  function viewOfOwn() {
+    const view = { ...answer.view, packing: OWN };
+    const suction = usualSuction(view, own);
+    if (suction === undefined) return view;
+    if (fields.suction.isRefused) markRight(fields.suction);
+    return { ...view, suction: written("suction", suction, 3) };
   }
 
   async function readFile(file) {
@@ -275,6 +285,7 @@ export function makeHeap() {
       });
     }
     fill(at("tiles"), heapTilesOf(answer));
+    fill(at("notices"), answer.notices.map((notice) => `<p>${plainText(notice)}</p>`).join(""));
     drawSized();
     showFields();
     later();
@@ -331,6 +342,7 @@ export function makeHeap() {
 
   /** What nobody waits for: tables and texts follow a little later, the fine picture and the address when the hand rests. */
   function later() {
+    if (!isOpen) return; // the address is another view's
     soon ??= setTimeout(() => {
       soon = undefined;
       fill(at("numbers"), heapNumbersOf(answer, curves));
@@ -412,7 +424,7 @@ export function makeHeap() {
       notice = error.message;
       showHeap(heapAnswerTo(FIRST_HEAP, own, exact, answer));
     }
-    fill(at("notices"), notice && `<p>${plainText(notice)}</p>`);
+    if (notice) fill(at("notices"), `<p>${plainText(notice)}</p>`);
   }
 
   function close() {

@@ -50,10 +50,10 @@ export function heapNumbersOf({ question, values }, curves) {
   const rows = HEAP_RECORDS.quantities.map(({ name, meaning }) =>
     row(name.replaceAll("_", " "), shown(name, values[name]), meaning),
   );
-  const limit = (path) => (curves ? show(curves.limits[path], "Pa", 5) : "…");
+  const limits = curves ? Object.values(curves.limits).map((limit) => show(limit, "Pa", 5)) : ["…"];
   rows.push(
     row("porosity", show(values.porosity, "", 4), `pores over the cell, of ${question.heap.count} grains`),
-    row("pendular limit", `${limit("drying")}, ${limit("wetting")}`, "bridges meet below it, on drying and on wetting"),
+    row("pendular limit", [...new Set(limits)].join(", "), "bridges meet below it, on drying and on wetting"),
   );
   return rows.join("");
 }

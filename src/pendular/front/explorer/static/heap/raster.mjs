@@ -7,6 +7,7 @@ const RIM = 0.08; // a rim sets grains apart
 const RIM_SHADE = 0.84;
 const CLEAR_RIM = 0.05; // what is left of grains that are seen through
 const HAZE = 0.42; // by which what is farthest fades
+const CLEAR_HAZE = 0.72;
 const GLOSS = 0.4;
 const TILE = 8; // pixels
 const FILM = 0.5; // pixels by which a meniscus may lie behind a grain
@@ -65,7 +66,7 @@ export function drawBall(canvas, x, y, z, radius, look) {
 }
 
 let ring = new Float64Array(0); // x, y, z and brightness of each corner
-let turns = new Float64Array(0); // of the sides that were drawn last
+const turns = new Map(); // cosines and sines by the number of sides
 
 /**
  * Draw a surface of revolution. The meridian is x along the axis from the pole and y away from it, in pixels, from `start`
@@ -74,9 +75,9 @@ let turns = new Float64Array(0); // of the sides that were drawn last
 export function drawMeniscus(canvas, pole, axis, meridian, sides, look, { start, stop, disc }) {
   const [across, other] = spokesOf(axis);
   const count = stop - start + 1;
-  if (turns.length !== 2 * sides) turns = turnsOf(sides);
+  if (!turns.has(sides)) turns.set(sides, turnsOf(sides));
   if (ring.length < 4 * sides * (count + 1)) ring = new Float64Array(4 * sides * (count + 1));
-  for (let i = 0; i < count; i++) layRing(i, start + i, pole, axis, across, other, meridian, turns);
+  for (let i = 0; i < count; i++) layRing(i, start + i, pole, axis, across, other, meridian, turns.get(sides));
   const tint = tintOf(look, pole[2]);
   for (let i = 0; i + 1 < count; i++)
     for (let j = 0; j < sides; j++) {
@@ -100,17 +101,17 @@ function spokesOf([x, y, z]) {
   ];
 }
 
-function layRing(i, point, pole, axis, across, other, { x, y }, turns) {
+function layRing(i, point, pole, axis, across, other, { x, y }, spokes) {
   const [before, after] = [Math.max(0, point - 1), Math.min(x.length - 1, point + 1)];
   const [run, rise] = [x[after] - x[before], y[after] - y[before]];
   const steep = Math.hypot(run, rise) || 1;
-  const sides = turns.length / 2;
+  const sides = spokes.length / 2;
   for (let j = 0; j < sides; j++) {
     const at = 4 * (i * sides + j);
     let lit = 0;
     let toEye = 0;
     for (let k = 0; k < 3; k++) {
-      const spoke = turns[2 * j] * across[k] + turns[2 * j + 1] * other[k];
+      const spoke = spokes[2 * j] * across[k] + spokes[2 * j + 1] * other[k];
       ring[at + k] = pole[k] + x[point] * axis[k] + y[point] * spoke;
       toEye = (run * spoke - rise * axis[k]) / steep; // a part of the normal, the last of which points to the eye
       lit += toEye * LIGHT[k];
@@ -179,8 +180,8 @@ function drawTriangle(canvas, corners, a, b, c, tint) {
 }
 
 /** A colour, faded by its depth. */
-function tintOf({ colour, ground, reach }, z) {
-  const haze = HAZE * Math.min(Math.max(0.5 - (0.5 * z) / reach, 0), 1);
+function tintOf({ colour, ground, reach, isClear }, z) {
+  const haze = (isClear ? CLEAR_HAZE : HAZE) * Math.min(Math.max(0.5 - (0.5 * z) / reach, 0), 1);
   const [red, green, blue] = colour.map((part) => part * (1 - haze));
   const [fogRed, fogGreen, fogBlue] = ground.map((part) => part * haze);
   return { red, green, blue, fogRed, fogGreen, fogBlue };

@@ -122,11 +122,11 @@ function suctionAxis({ low, high }, across, { left, right, floor }, height) {
 const meetingBand = (x, { left, top, floor }) =>
   `<rect class="meeting" x="${left}" y="${top}" width="${Math.max(0, x - left).toFixed(1)}" height="${floor - top}"/>`;
 
-function meetingWords(limit, x, { right, top }) {
+function meetingWords(limit, x, { right, floor }) {
   const isTight = x + 110 > right;
   const place = isTight ? `x="${(x - 6).toFixed(1)}" text-anchor="end"` : `x="${(x + 6).toFixed(1)}"`;
   return (
-    `<text class="key" ${place} y="${top + 12}">bridges meet</text>` +
-    `<text class="key" ${place} y="${top + 27}">below ${show(limit, "Pa", 3)}</text>`
+    `<text class="key" ${place} y="${floor - 22}">bridges meet</text>` +
+    `<text class="key" ${place} y="${floor - 7}">below ${show(limit, "Pa", 3)}</text>`
   );
 }

@@ -3,10 +3,11 @@
 import { canvasOf, clear, copyOf, drawBall, drawMeniscus, isHidden, tilesOf } from "./raster.mjs";
 import { axesOf, placesOf, scaleIn } from "./space.mjs";
 
-const POINTS = 7; // of a meridian, an odd number
-const FINE_POINTS = 13;
-const SIDES = 12; // of a surface of revolution
-const FINE_SIDES = 24;
+const COARSE_DETAIL = { points: 5, sides: 10 }; // of a meridian, an odd number, and of a surface of revolution
+const CLEAR_DETAIL = { points: 5, sides: 8 }; // all bridges are seen
+const FINE_DETAIL = { points: 13, sides: 24 };
+const FEWEST_SIDES = 6;
+const SIDES_A_PIXEL = 1.3; // of the radius
 
 /** Keeps pictures of one size: grains are drawn again only where they look different. */
 export function makeScene() {
@@ -31,7 +32,7 @@ export function makeScene() {
       drawn = { heap, key, tiles: tilesOf(grains) };
     }
     copyOf(whole, grains);
-    const detail = isFine ? [FINE_POINTS, FINE_SIDES] : [POINTS, SIDES];
+    const detail = isFine ? FINE_DETAIL : isClear ? CLEAR_DETAIL : COARSE_DETAIL;
     for (const { row, isKept } of bridges) {
       const look = isKept ? looks.kept : looks.liquid;
       drawBridge(whole, drawn.tiles, setting, answers, row, seen, detail, look, solver);
@@ -82,7 +83,8 @@ function drawBridge(canvas, tiles, { heap, pairs }, answers, row, { axes, scale,
   const around = scale * roundReachOf(heap.radii[i], heap.radii[j], answers, row);
   const ends = [first, again].slice(0, isWhole ? 1 : 2).map((pole) => ({ pole, isSeen: !isHidden(tiles, pole, around) }));
   if (!ends.some(({ isSeen }) => isSeen)) return;
-  const [points, sides] = detail;
+  const { points } = detail;
+  const sides = Math.min(detail.sides, Math.max(FEWEST_SIDES, 2 * Math.ceil(SIDES_A_PIXEL * around * 0.5)));
   const meridian = meridianOf(heap, i, j, answers, row, points, solver);
   const x = meridian.x.map((place) => scale * place);
   const y = meridian.y.map((place) => scale * place);

@@ -3,7 +3,8 @@
 export const FIRST_TURN = Object.freeze({ turn: 35, tilt: 25, zoom: 1 }); // [°], as the package draws a heap
 const MOST_TILT = 90;
 const ZOOMS = [0.5, 6];
-const ROOM = 1.02;
+const ROOM = 1.03;
+const USUAL_TILTS = [0, 0.25, 0.5]; // at which the whole heap is in sight, [rad]
 
 /** A view that is turned on, with its angles in their ranges. */
 export function turned({ turn, tilt, zoom }, { by = 0, up = 0, nearer = 1 }) {
@@ -28,10 +29,10 @@ export function axesOf({ turn, tilt }) {
   return [...right, ...up, ...eye];
 }
 
-/** Centres of the grains in their cell, about its middle, [m]; found once for a heap. */
+/** Centres of the grains in their cell, about their middle, and how far they reach, [m]; found once for a heap. */
 export function placesOf(heap) {
   if (heap.places) return heap.places;
-  const { count, positions, cell, box } = heap;
+  const { count, positions, cell } = heap;
   const inside = Float64Array.from(positions);
   for (let k = 0; k < 3; k++) {
     let [low, high] = [Infinity, -Infinity];
@@ -40,13 +41,28 @@ export function placesOf(heap) {
       low = Math.min(low, inside[i]);
       high = Math.max(high, inside[i]);
     }
-    const middle = cell ? 0.5 * cell[k] : 0.5 * (low + high);
-    for (let i = k; i < 3 * count; i += 3) inside[i] -= middle;
+    for (let i = k; i < 3 * count; i += 3) inside[i] -= 0.5 * (low + high);
   }
-  heap.places = { inside, reach: ROOM * (0.5 * Math.hypot(...box) + (cell ? heap.mostRadius : 0)) };
+  heap.places = { inside, ...reachesOf(heap, inside) };
   return heap.places;
 }
 
+/** How far the grains reach from their middle: at most, to the side however they are turned, and upwards. */
+function reachesOf({ count, radii }, inside) {
+  const reaches = { reach: 0, aside: 0, up: 0 };
+  for (let i = 0; i < count; i++) {
+    const [x, y, z] = inside.subarray(3 * i, 3 * i + 3);
+    const aside = Math.hypot(x, y);
+    reaches.reach = Math.max(reaches.reach, Math.hypot(x, y, z) + radii[i]);
+    reaches.aside = Math.max(reaches.aside, aside + radii[i]);
+    for (const tilt of USUAL_TILTS)
+      reaches.up = Math.max(reaches.up, Math.abs(z) * Math.cos(tilt) + aside * Math.sin(tilt) + radii[i]);
+  }
+  return reaches;
+}
+
 /** Pixels of a metre, in a picture of so many columns and rows. */
-export const scaleIn = (heap, { zoom }, columns, rows) =>
-  (0.5 * zoom * Math.min(columns, rows)) / (0.8 * placesOf(heap).reach);
+export function scaleIn(heap, { zoom }, columns, rows) {
+  const { aside, up } = placesOf(heap);
+  return (0.5 * zoom * Math.min(columns / aside, rows / up)) / ROOM;
+}
