@@ -514,6 +514,7 @@ function begin() {
     showAnswer(answerTo(FIRST_VIEW, exact, answer));
   }
   if (notice) fill(at("notices"), `<p>${plainText(notice)}</p>`);
+  fitting ??= fitPanel({ answerNow: () => answer, change, solver: exact, module: MODULE, save });
 }
 
 /** The pair goes out of sight: its address is kept in its link, and the address of the page is left alone. */
@@ -542,7 +543,6 @@ window.explorer = {
 
 layOut();
 begin();
-fitting = fitPanel({ answerNow: () => answer, change, solver: exact, module: MODULE, save });
 listen();
 if ("serviceWorker" in navigator && location.protocol.startsWith("http"))
   navigator.serviceWorker.register("offline.js");
