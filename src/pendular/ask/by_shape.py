@@ -14,6 +14,7 @@ from ..exact.solids.surface import NO_PROFILE, SPHERE, Profile
 from ..exact.state import State
 from ..ground.check import broadcast, in_range, plain, quantity
 from ..ground.warn import warn
+from .domain import length_between
 from .liquid import Liquid
 from .pair import Pair
 from .problem import ASKED, LIMITS, Asked, Control, ConvergenceWarning, Limit, Problem, restore
@@ -64,13 +65,17 @@ def _reduced(pair: Pair, control: Control, liquid: Liquid, separation: ArrayLike
         for i, solid in enumerate(pair.solids)
     ]
     if separation is not None:
-        _refuse_overlap(gap, told)
+        _refuse_overlap(
+            arrays["separation"], [np.reshape(_is_flat(one), shape if np.ndim(one.size) else ()) for one in told]
+        )
     held = VOLUME if control.name == "volume" else SUCTION
     sizes = [solid.size if isinstance(solid, Shape) else one.size for solid, one in zip(pair.solids, told, strict=True)]
-    size = _smaller(*sizes)
-    unit = _unit(held, value, liquid.surface_tension, size, gap)
+    size = np.broadcast_to(_smaller(*sizes), value.shape)
+    asking = zip(value.tolist(), size.tolist(), gap.tolist(), strict=True)
+    tension = liquid.surface_tension
+    unit = np.array([length_between(held, value, tension, size, gap) for value, size, gap in asking])
     with np.errstate(divide="ignore", over="ignore"):
-        reduced = value / unit**3 if held == VOLUME else value * unit / liquid.surface_tension
+        reduced = value / unit**3 if held == VOLUME else value * unit / tension
     angles = [columns[f"contact_angle[{i}]"] for i in (0, 1)]
     rows, questions = np.empty((value.size, 6)), np.empty((value.size, COLUMNS))
     both = [column for one, angle in zip(told, angles, strict=True) for column in _columns(one, unit, angle)]
@@ -82,7 +87,7 @@ def _reduced(pair: Pair, control: Control, liquid: Liquid, separation: ArrayLike
     for i, column in enumerate((gap / unit, reduced, curvatures[0], angles[0], curvatures[1], angles[1])):
         rows[:, i] = column
     asked = arrays["separation"] if separation is not None else np.full(shape, np.nan)
-    return Problem(rows, held, asked, unit, liquid.surface_tension, shape), questions
+    return Problem(rows, held, asked, unit, tension, shape), questions
 
 
 def _columns(told: Told, unit: Floats, angle: Floats) -> tuple[float, Floats, float, Floats]:
@@ -96,25 +101,15 @@ def _smaller(first: ArrayLike, second: ArrayLike) -> Floats:
     return smaller
 
 
-def _unit(held: int, value: Floats, tension: float, size: Floats, separation: Floats) -> Floats:
-    """Unit of length: of a volume its cube root, of a pressure the radius of curvature, else what there is."""
-    if held == VOLUME:
-        return np.cbrt(value)
-    with np.errstate(divide="ignore"):
-        own = np.where(value == 0.0, np.nan, tension / np.abs(value))
-    unit: Floats = np.ones(value.shape)
-    for length in (separation, size, own):
-        unit = np.where(length > 0.0, length, unit)
-    return unit
+def _is_flat(told: Told) -> NDArray[np.bool_]:
+    """Whether a solid has a flat end."""
+    return np.isinf(told.size) if told.kind == SPHERE else np.array(is_flat(solid_from(*told, 0.0, NO_PROFILE)))
 
 
-def _refuse_overlap(separation: Floats, solids: list[Told]) -> None:
-    first, second = (
-        is_flat(solid_from(*told, 0.0, NO_PROFILE)) if told.kind != SPHERE else np.isinf(told.size) for told in solids
-    )
-    if np.any(are_flat := np.broadcast_to(first & second, separation.shape)):
-        reason = "two flat ends in contact leave no room for liquid"
-        in_range("separation", separation[are_flat], 0.0, brackets="()", unit="m", low_hint=reason)
+def _refuse_overlap(separation: Floats, flat: list[NDArray[np.bool_]]) -> None:
+    apart = np.where(flat[0] & flat[1], separation, 1.0)
+    reason = "two flat ends in contact leave no room for liquid"
+    in_range("separation", apart, 0.0, brackets="()", unit="m", low_hint=reason)
     in_range("separation", separation, 0.0, brackets="[)", unit="m")
 
 

@@ -35,6 +35,21 @@ def length_unit(control: int, held: float, radius1: float, radius2: float) -> fl
 
 
 @kernel
+def length_between(control: int, held: float, tension: float, size: float, separation: float) -> float:
+    """The same between solids of any shape, the smaller of which has a size, or NaN.
+
+    Of a volume it is the cube root, of a pressure the radius of curvature, else what there is.
+    """
+    if control == VOLUME:
+        return math.pow(held, 1.0 / 3.0)
+    if held != 0.0:
+        return tension / abs(held)
+    if size > 0.0:
+        return size
+    return separation if separation > 0.0 else 1.0
+
+
+@kernel
 def reduced(control: int, held: float, unit: float, tension: float) -> float:
     """What is held, in a unit of length: V/π, or H."""
     return held / (unit * unit * unit) / math.pi if control == VOLUME else held * unit / tension

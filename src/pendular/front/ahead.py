@@ -77,8 +77,6 @@ def _ask_filling_angle() -> None:
 def _ask_solids() -> None:
     tip = Pair((Cone(1.0, 10e-6), np.inf), 0.35)
     bridge(tip, _GAPS, volume=1e-15, liquid=_LIQUID)
-    rupture(tip, volume=1e-15, liquid=_LIQUID)
-    curve(tip, volume=1e-15, liquid=_LIQUID, points=5)
 
 
 def _ask_table() -> None:

@@ -1,7 +1,7 @@
 """What a question about two solids of any shape leads to, checked before it is given."""
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,13 +38,14 @@ from .surfaces import is_plane, shape_at, wetted_area
 from .travel import OFF, Journey, Track, curve_on, go_beyond, is_step, nowhere, set_out, track_in, travel
 
 Rows = NDArray[np.float64]
-Statuses = NDArray[np.int8]
+Statuses = NDArray[np.signedinteger[Any]]
 
 SPILLED = 4  # status: the liquid would wet the sides of two discs, or run beyond a profile
 
 _ROUNDING = 1e-15
 _AT_EDGE = 1e-9  # room on an edge that is none
 _MISS_OF_SEPARATION = 1e-10  # over ℓ
+_CONTACT = 1e-12  # separation of a lower end that is contact, as that of two flat ends, whose gap is filled
 _BEYOND = 1e-6  # over the end of a branch, where another may go on
 _MOST_BRANCHES = 4
 _WIDEST = 0.2  # gap between flat faces where their curve begins, over the rupture distance
@@ -167,16 +168,6 @@ def answer_to(question: Question, asked: int, separation: float, limit: int, roo
         return NO_BRIDGE
     stance, track = go_beyond(question, top)
     return _arrived(question, travel(question, stance, track, separation, NOTHING, room.nodes), separation, row)
-
-
-@kernel
-def found_straight(question: Question, separation: float, room: Room, row: Rows) -> int:
-    """Store the stable bridge to which the starts lead, of several that of the least energy; the status."""
-    farthest = reaches_no_farther(question)
-    if farthest < 0.0 or separation > farthest * (1.0 + _ROUNDING):
-        return NO_BRIDGE
-    count = stable_at(question, separation, room.found.shape[0], room)
-    return FOUND if _least(question, count, room, row) else FAILED
 
 
 @kernel
@@ -309,7 +300,7 @@ def _end(question: Question, asked: int, journey: Journey, row: Rows) -> int:
         return NO_BRIDGE if goes_on else SPILLED
     if event != FOLD and event != PITCHFORK and event != ENDED:
         return SPILLED if event == OFF else FAILED
-    if journey.stance.separation < 0.0:
+    if journey.stance.separation < (_CONTACT if asked == LOWER_END else 0.0):
         return NO_BRIDGE
     status = _described_on(question, journey.track, journey.stance.z, journey.stance.unstable, row)
     if status == FOUND and event == FOLD and not journey.is_corner:

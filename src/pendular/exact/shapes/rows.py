@@ -5,8 +5,6 @@ and its contact angle, in one unit of length; profiles, if the solids have them,
 """
 
 import math
-from collections.abc import Callable
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,12 +12,12 @@ from numpy.typing import NDArray
 
 from ...ground.compile import kernel
 from ...ground.rows import Own, entry, over_rows
-from ..answers import FAILED, FOUND, STABLE
+from ..answers import FAILED, FOUND
 from ..equations import VOLUME
 from ..follow import BRANCH_ENDS
 from ..solids.surface import Profile
 from ..state import State
-from .answers import answer_to, curve_of, found_straight
+from .answers import answer_to, curve_of
 from .pieces import solid_from
 from .search import Question, Room, room_for_found, room_for_nodes, room_for_starts
 
@@ -30,7 +28,7 @@ Statuses = NDArray[np.int8]
 
 COLUMNS = 11
 
-_OPEN = -1  # status of a row that a part of the solver leaves to the whole of it
+CURVE = 4  # asked beside what `answers` knows
 _CHUNK = 64  # bridges that one thread takes at a time
 
 
@@ -43,46 +41,23 @@ def question_in(row: Rows, control: int, profile1: Profile, profile2: Profile) -
     return Question(first, second, control, value, float(row[2]))
 
 
-@entry(plain_cost=4e-3, patience=12.0)
-def stable_shapes_range(
-    control: int, questions: Rows, profile1: Profile, profile2: Profile, states: Rows, statuses: Statuses,
-    nodes: Rows, found: Rows, starts: Rows, start: int, stop: int,
-) -> None:  # fmt: skip
-    """Stable bridges of the rows to which starts lead at once; others stay open."""
-    room = Room(nodes, found, starts)
-    for i in range(start, stop):
-        question = question_in(questions[i], control, profile1, profile2)
-        status = found_straight(question, float(questions[i, 0]), room, states[i])
-        statuses[i] = _OPEN if status == FAILED else status
-        if status != FOUND:
-            states[i, :] = math.nan
-
-
 @entry(plain_cost=0.02, patience=15.0)
 def shapes_range(
-    asked: int, limit: int, control: int, questions: Rows, profile1: Profile, profile2: Profile, states: Rows,
-    statuses: Statuses, nodes: Rows, found: Rows, starts: Rows, start: int, stop: int,
+    asked: int, limit: int, control: int, questions: Rows, profile1: Profile, profile2: Profile,
+    states: NDArray[np.float64], statuses: Statuses, nodes: Rows, found: Rows, starts: Rows, start: int, stop: int,
 ) -> None:  # fmt: skip
-    """Answer the rows from start to stop."""
+    """Answer the rows from start to stop, each by one bridge or, of a CURVE, by so many as there is room for.
+
+    All is one entry, as nearly all of its code serves all that can be asked.
+    """
     room = Room(nodes, found, starts)
     for i in range(start, stop):
         question = question_in(questions[i], control, profile1, profile2)
-        status = answer_to(question, asked, float(questions[i, 0]), limit, room, states[i])
-        statuses[i] = status
-        if status != FOUND:
-            states[i, :] = math.nan
-
-
-@entry(plain_cost=0.15, patience=15.0)
-def shape_curves_range(
-    limit: int, control: int, questions: Rows, profile1: Profile, profile2: Profile, states: NDArray[np.float64],
-    statuses: NDArray[np.int8], nodes: Rows, found: Rows, starts: Rows, start: int, stop: int,
-) -> None:  # fmt: skip
-    """Whole curves for the rows from start to stop; states and statuses have an axis of points more."""
-    room = Room(nodes, found, starts)
-    for i in range(start, stop):
-        states[i] = math.nan
-        curve_of(question_in(questions[i], control, profile1, profile2), limit, room, states[i], statuses[i])
+        if asked == CURVE:
+            states[i] = math.nan
+            curve_of(question, limit, room, states[i], statuses[i])
+        else:
+            statuses[i, 0] = answer_to(question, asked, float(questions[i, 0]), limit, room, states[i, 0])
         for k in range(statuses.shape[1]):
             if statuses[i, k] != FOUND:
                 states[i, k, :] = math.nan
@@ -95,37 +70,33 @@ def answer(
     asked: int, control: int, questions: Rows, profiles: tuple[Profile, Profile], limit: int = BRANCH_ENDS
 ) -> tuple[Rows, Statuses]:
     """Answer rows of questions on all threads: their states and statuses."""
-    states, statuses = np.empty((len(questions), len(State._fields))), np.full(len(questions), _OPEN, np.int8)
-    if asked == STABLE:
-        _over(stable_shapes_range, (control, questions, *profiles), states, statuses)
-    rows = np.flatnonzero(statuses == _OPEN)
-    if rows.size:
-        part = np.empty((rows.size, states.shape[1])), np.empty(rows.size, np.int8)
-        _over(shapes_range, (asked, limit, control, questions[rows], *profiles), *part)
-        states[rows], statuses[rows] = part
-    return states, statuses
+    states, statuses = _answered(asked, control, questions, profiles, limit, 1)
+    return states[:, 0], statuses[:, 0]
 
 
 def draw(
     control: int, questions: Rows, profiles: tuple[Profile, Profile], points: int, limit: int = BRANCH_ENDS
 ) -> tuple[NDArray[np.float64], Statuses]:
     """Whole curves for rows of questions, on all threads: (rows, points, fields), and the status of each point."""
+    return _answered(CURVE, control, questions, profiles, limit, points)
+
+
+def _answered(
+    asked: int, control: int, questions: Rows, profiles: tuple[Profile, Profile], limit: int, points: int
+) -> tuple[NDArray[np.float64], Statuses]:
     states = np.empty((len(questions), points, len(State._fields)))
     statuses = np.empty((len(questions), points), np.int8)
-    _over(shape_curves_range, (limit, control, questions, *profiles), states, statuses)
+    asking = asked, limit, control, questions, *profiles, states, statuses, *_ROOM
+    over_rows(shapes_range, len(states), 1 if asked == CURVE else _CHUNK, *asking, plainly=_plainly)
     return states, statuses
 
 
-def _over(function: Callable[..., None], given: tuple[Any, ...], states: Rows, statuses: Statuses) -> None:
-    chunk = 1 if states.ndim > 2 else _CHUNK
-    plainly = partial(_plainly, function, states, statuses)
-    over_rows(function, len(states), chunk, *given, states, statuses, *_ROOM, plainly=plainly)
-
-
-def _plainly(function: Callable[..., None], states: Rows, statuses: Statuses, *asking: Any) -> None:
+def _plainly(*asking: Any) -> None:
     """Answer the rows one by one in plain Python; where its arithmetic has no answer, as 1/0, the solver has failed."""
-    for i in range(len(statuses)):
+    *given, start, stop = asking
+    states, statuses = given[6:8]
+    for i in range(start, stop):
         try:
-            function(*asking[:-2], i, i + 1)
+            shapes_range(*(*given, i, i + 1))
         except (ArithmeticError, ValueError):
-            states[i], statuses[i] = math.nan, _OPEN if function is stable_shapes_range else FAILED
+            states[i], statuses[i] = math.nan, FAILED
