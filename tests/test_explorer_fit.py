@@ -1,21 +1,17 @@
 """The fit of the explorer page, run in Node beside `pendular.fit`: the same numbers, errors and words."""
 
-import json
 import math
 import re
 import shutil
-import subprocess
 import warnings
-from importlib.resources import files
 from typing import NamedTuple
 
 import numpy as np
 import pytest
 
 import pendular as pl
+from page_modules import answer_of_script, write_modules
 from pendular.ask.liquid import suction_from_humidity
-from pendular.codes import wasm
-from pendular.front.explorer.records import records
 from pendular.ground import webassembly
 
 pytestmark = [
@@ -26,7 +22,6 @@ pytestmark = [
 
 SEED = 20261201
 WATER = pl.Liquid.water()
-STATIC = files("pendular.front.explorer") / "static"
 FITTING = """
 import { readFileSync } from "node:fs";
 import { load } from "./pendular.mjs";
@@ -48,29 +43,14 @@ console.log(JSON.stringify(answers, plain));
 
 @pytest.fixture(scope="module")
 def page(tmp_path_factory):
-    """Folder with the modules of the page, as Node imports them."""
-    folder = tmp_path_factory.mktemp("page")
-    wasm.write(folder)
-    for file in STATIC.iterdir():
-        if file.name.endswith(".mjs"):
-            (folder / file.name).write_text(file.read_text(encoding="utf-8"), encoding="utf-8")
-    (folder / "records.mjs").write_text(f"export const RECORDS = {json.dumps(records())};", encoding="utf-8")
-    (folder / "fitting.mjs").write_text(FITTING, encoding="utf-8")
-    return folder
+    """Folder with the modules of the page."""
+    return write_modules(tmp_path_factory.mktemp("page"))
 
 
 @pytest.fixture(scope="module")
 def fits_of(page):
     """Fits of the page for requests."""
-
-    def fits_of(requests):
-        done = subprocess.run(
-            ["node", "fitting.mjs"], cwd=page, input=json.dumps(requests), capture_output=True, text=True, check=False
-        )
-        assert done.returncode == 0, done.stderr
-        return [numbers_in(fit) for fit in json.loads(done.stdout)]
-
-    return fits_of
+    return lambda requests: [numbers_in(fit) for fit in answer_of_script(page, FITTING, requests)]
 
 
 def numbers_in(told):
@@ -402,16 +382,7 @@ def read_by_python(folder, text: str) -> dict:
 @pytest.fixture(scope="module")
 def curves_of(page):
     """Curves that the page reads from texts."""
-    (page / "reading.mjs").write_text(READING, encoding="utf-8")
-
-    def curves_of(texts):
-        asked = json.dumps([[text, [None, None], 1] for text in texts])
-        done = subprocess.run(
-            ["node", "reading.mjs"], cwd=page, input=asked, capture_output=True, text=True, check=True
-        )
-        return json.loads(done.stdout)
-
-    return curves_of
+    return lambda texts: answer_of_script(page, READING, [[text, [None, None], 1] for text in texts])
 
 
 def test_tables_are_read_as_python_reads_them(curves_of, tmp_path):

@@ -6,17 +6,23 @@ import { rounded, signed } from "./units.mjs";
 import { questionOf } from "./view.mjs";
 
 const CURVE_POINTS = 97; // enough to look smooth at the width of a screen
+const STABLE_POINTS = 33; // of its stable part alone
+const SLOW = 8; // time for a whole curve, half a frame, from which on a moving hand is shown its stable part alone, [ms]
 const LAW_POINTS = 97;
 const OTHER_POINTS = 33; // of a law of the other control, which needs an exact bridge for each
 const BEYOND = 1.3; // over the exact rupture distance: where a law that knows none is drawn to
 const SAME = 1e-6; // by how much the forces of two answers for one bridge may differ
 const SLACK = 1e-12; // of an angle of 40° in radians, say
 
-/** The answer to a view; what does not depend on the separation is taken from the answer before, if that had it. */
-export function answerTo(view, solver, before) {
+/**
+ * The answer to a view; what does not depend on the separation is taken from the answer before, if that had it. While a
+ * hand moves, the curve may lack its unstable part, which takes longer than all the rest: `branch.isWhole` tells.
+ */
+export function answerTo(view, solver, before, isMoving = false) {
   const question = questionOf(view);
   const key = JSON.stringify([question.pair.radius.map(String), question.degrees, question.held, question.control]);
-  const branch = before?.branch.key === key ? before.branch : branchOf(question, solver, key);
+  const isKnown = before?.branch.key === key && (before.branch.isWhole || isMoving);
+  const branch = isKnown ? before.branch : branchOf(question, solver, key, isMoving);
   const state = unlessFailed(() => solver.bridge(question.pair, question.separation, question.held), undefined);
   const answer = { view, question, branch, ...branch, state: state ?? null, isFailure: state === undefined };
   answer.drawn = drawnLaws(answer, solver);
@@ -24,16 +30,30 @@ export function answerTo(view, solver, before) {
   return answer;
 }
 
-function branchOf({ pair, held }, solver, key) {
+let timeOfCurve = 0; // that the last whole one took, [ms]
+
+function branchOf(question, solver, key, isMoving) {
+  const { pair, held } = question;
   const rupture = unlessFailed(() => solver.rupture(pair, held), null);
+  const lowerEnd = rupture ? unlessFailed(() => solver.lowerEnd(pair, held), null) : null;
+  const isWhole = !(isMoving && timeOfCurve > SLOW) || question.arePlanes || !rupture;
+  const states = isWhole ? wholeCurve(question, rupture, solver) : stableCurve(question, rupture, lowerEnd, solver);
+  return { key, rupture, lowerEnd, isWhole, curve: states.filter((state) => state !== null), lawCurves: new Map() };
+}
+
+function wholeCurve({ pair, held }, rupture, solver) {
+  const began = performance.now();
   const states = rupture ? unlessFailed(() => solver.curve(pair, held, CURVE_POINTS), []) : [];
-  return {
-    key,
-    rupture,
-    curve: states.filter((state) => state !== null),
-    lowerEnd: rupture ? unlessFailed(() => solver.lowerEnd(pair, held), null) : null,
-    lawCurves: new Map(),
-  };
+  timeOfCurve = performance.now() - began;
+  return states;
+}
+
+/** Bridges from contact, or the lower end, to rupture, dense there, where the curve is steep. */
+function stableCurve({ pair, held }, rupture, lowerEnd, solver) {
+  const first = lowerEnd?.separation ?? 0;
+  const share = (i) => 1 - (1 - i / STABLE_POINTS) ** 2;
+  const gaps = Array.from({ length: STABLE_POINTS }, (_, i) => first + (rupture.separation - first) * share(i));
+  return [...unlessFailed(() => solver.bridges(pair, gaps, held), []), rupture];
 }
 
 /** What the solver answers, or another thing where it failed: that is no mistake of who asked. */

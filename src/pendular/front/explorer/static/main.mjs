@@ -118,7 +118,7 @@ function listen() {
   letPull(at("picture"));
   letSeek(at("chart"));
   letGo(at("plan"));
-  at("save-curve").addEventListener("click", () => save("curve.csv", "text/csv", wholeCurve()));
+  at("save-curve").addEventListener("click", () => save("curve.csv", "text/csv", curveTable()));
   at("save-picture").addEventListener("click", () => save("bridge.svg", "image/svg+xml", wholePicture()));
   at("save-program").addEventListener("click", () => save("bridge.py", "text/x-python", programOf(answer)));
   for (const button of document.querySelectorAll("[data-copies]")) button.addEventListener("click", () => copy(button));
@@ -260,7 +260,7 @@ function showAhead() {
   const { view, field } = ahead;
   ahead = undefined;
   try {
-    showAnswer(answerTo(view, exact, answer));
+    showAnswer(answerTo(view, exact, answer, true));
   } catch (error) {
     if (!(error instanceof RangeError)) throw error;
     refuse(field, view[field], error);
@@ -332,6 +332,7 @@ function later(isMapOld) {
   soon ??= setTimeout(showSoon, LITTLE);
   clearTimeout(waiting);
   waiting = setTimeout(() => {
+    if (!answer.branch.isWhole) showAnswer(answerTo(answer.view, exact, answer));
     at("spoken").textContent = spoken(answer);
     history.replaceState(null, "", `#${hashOf(answer.view)}`);
     if (isMapWaiting) startMap();
@@ -423,7 +424,7 @@ function accept(name) {
 
 // -- To take away ----------------------------------------------------------------------------------------------------
 
-const wholeCurve = () =>
+const curveTable = () =>
   csvOf(exact.curve(answer.question.pair, answer.question.held, CSV_POINTS).filter(Boolean), answer.question);
 
 /** Picture and curve beside each other, in the colours of paper. */
