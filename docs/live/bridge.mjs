@@ -1,15 +1,17 @@
 // The bridge that moves on the front page: a pair to scale, its force curve, and what a reader changes.
 
+import { show } from "./units.mjs";
+
 const RADIUS = 50e-6; // of the first grain [m]
 const WATER = 0.0728; // [N/m]
 const MOST_RATIO = 20; // of the second radius; above, a plane
 const CURVE_POINTS = 48;
-const ARC_POINTS = 60;
+const ARC_POINTS = 61;
 const BEYOND = 1.25; // of the rupture distance, to which a grain may be pulled
 const PERIOD = 9000; // of a pull by itself [ms]
 const SCALE = 48 / RADIUS; // of the picture [1/m]
 
-export function show({ bridge, bridges, rupture }) {
+export function begin({ bridge, bridges, rupture, profile }) {
   const at = (name) => document.getElementById(`live-${name}`);
   const sliders = { gap: at("gap"), suction: at("suction"), angle: at("angle"), size: at("size") };
   Object.assign(sliders.suction, { value: 3.3 });
@@ -35,7 +37,7 @@ export function show({ bridge, bridges, rupture }) {
     const { pair, water, end, curve } = known;
     const gap = Number(sliders.gap.value) * BEYOND * end.separation;
     const state = bridge(pair, gap, water);
-    drawScene(at, pair, gap, state);
+    drawScene(at, pair, gap, state, profile);
     drawCurve(at, curve, end, gap, state);
     tell(at, pair, water, end, gap, state);
   }
@@ -63,12 +65,12 @@ export function show({ bridge, bridges, rupture }) {
 
 // -- Pictures --------------------------------------------------------------------------------------------------------
 
-function drawScene(at, pair, gap, state) {
+function drawScene(at, pair, gap, state, profile) {
   const shift = -0.5 * gap; // the middle of the gap stays in the middle
   const place = (x, y) => `${(SCALE * (x + shift)).toFixed(2)} ${(-SCALE * y).toFixed(2)}`;
   at("solid1").setAttribute("d", solid(-1, pair.radius[0], 0, place));
   at("solid2").setAttribute("d", solid(1, pair.radius[1], gap, place));
-  at("liquid").setAttribute("d", state ? liquid(pair, gap, state, place) : "");
+  at("liquid").setAttribute("d", state ? liquid(pair, profile(pair, state, ARC_POINTS), place) : "");
 }
 
 function solid(side, radius, pole, place) {
@@ -81,43 +83,15 @@ function solid(side, radius, pole, place) {
   return `M${place(pole, 0)}A${r} ${r} 0 1 1 ${place(pole + 2 * side * radius, 0)}A${r} ${r} 0 1 1 ${place(pole, 0)}Z`;
 }
 
-function liquid(pair, gap, state, place) {
-  const [depth1, depth2] = state.halfFillingAngle.map((angle, i) =>
-    pair.radius[i] === Infinity ? 0 : pair.radius[i] * (1 - Math.cos(angle)),
-  );
-  const arc = meridian(state.meridian);
-  const from = -depth1;
-  const stretch = (gap + depth2 - from) / arc.at(-1).x; // 1 but for the rounding of the sum
-  const upper = arc.map(({ x, y }) => place(from + stretch * x, y));
-  const lower = arc.map(({ x, y }) => place(from + stretch * x, -y)).reverse();
-  const cap = (i, x, y) => {
+function liquid(pair, { x, y }, place) {
+  const points = Array.from(x, (along, i) => [along, y[i]]);
+  const upper = points.map(([along, across]) => place(along, across));
+  const lower = points.map(([along, across]) => place(along, -across)).reverse();
+  const cap = (i, end) => {
     const r = (SCALE * pair.radius[i]).toFixed(2);
-    return pair.radius[i] === Infinity ? `L${place(x, y)}` : `A${r} ${r} 0 0 0 ${place(x, y)}`;
+    return pair.radius[i] === Infinity ? `L${end}` : `A${r} ${r} 0 0 0 ${end}`;
   };
-  const [first, last] = [arc[0], arc.at(-1)];
-  return `M${upper.join("L")}${cap(1, from + stretch * last.x, -last.y)}L${lower.join("L")}${cap(0, from, first.y)}Z`;
-}
-
-// Points of the arc from its first end: ζ(s) = Y exp(iφ) is (1 + Hζ(s)) = (1 + Hζm) exp(iHs), and dx = cos φ ds.
-function meridian({ radius, slope, halfLength, curvature }) {
-  const points = [];
-  let x = 0;
-  let before;
-  for (let i = 0; i <= ARC_POINTS; i++) {
-    const s = halfLength * ((2 * i) / ARC_POINTS - 1);
-    const [cos, sin] = [Math.cos(curvature * s), Math.sin(curvature * s)];
-    const half = 0.5 * curvature * s;
-    const chord = half === 0 ? s : (s * Math.sin(half)) / half; // (exp(iHs) - 1)/(iH) = chord exp(iHs/2)
-    const [real, imaginary] = [radius * Math.cos(slope), radius * Math.sin(slope)];
-    const re = real * cos - imaginary * sin - chord * Math.sin(half);
-    const im = real * sin + imaginary * cos + chord * Math.cos(half);
-    const y = Math.hypot(re, im);
-    const run = re / y;
-    if (before !== undefined) x += (0.5 * (run + before) * 2 * halfLength) / ARC_POINTS;
-    before = run;
-    points.push({ x, y });
-  }
-  return points;
+  return `M${upper.join("L")}${cap(1, lower[0])}L${lower.join("L")}${cap(0, upper[0])}Z`;
 }
 
 function drawCurve(at, curve, end, gap, state) {
@@ -135,22 +109,17 @@ function drawCurve(at, curve, end, gap, state) {
 
 // -- Words -----------------------------------------------------------------------------------------------------------
 
-const PREFIXES = [[1e-15, "f"], [1e-12, "p"], [1e-9, "n"], [1e-6, "µ"], [1e-3, "m"], [1, ""], [1e3, "k"], [1e6, "M"]];
-
-function quantity(value, unit) {
-  const [size, prefix] = PREFIXES.findLast(([least]) => Math.abs(value) >= least) ?? PREFIXES[0];
-  return `${Number((value / size).toPrecision(3))}\u00a0${prefix}${unit}`;
-}
+const DIGITS = 3;
 
 function tell(at, pair, water, end, gap, state) {
   const ratio = pair.radius[1] / pair.radius[0];
-  at("gap-told").value = quantity(gap, "m");
-  at("suction-told").value = quantity(water.suction, "Pa");
+  at("gap-told").value = show(gap, "m", DIGITS);
+  at("suction-told").value = show(water.suction, "Pa", DIGITS);
   at("angle-told").value = `${Math.round((pair.contactAngle * 180) / Math.PI)}°`;
   at("size-told").value = ratio === Infinity ? "a plane" : ratio === 1 ? "equal" : `${Number(ratio.toPrecision(2))} times`;
   at("told").textContent = state
-    ? `Force ${quantity(state.force, "N")}, liquid ${quantity(1e3 * state.volume, "L")}, breaks at ${quantity(end.separation, "m")}.`
-    : `No bridge: it broke at ${quantity(end.separation, "m")}, where its force was ${quantity(end.force, "N")}.`;
+    ? `Force ${show(state.force, "N", DIGITS)}, liquid ${show(state.volume, "m^3", DIGITS)}, breaks at ${show(end.separation, "m", DIGITS)}.`
+    : `No bridge: it broke at ${show(end.separation, "m", DIGITS)}, where its force was ${show(end.force, "N", DIGITS)}.`;
 }
 
 // -- Hands -----------------------------------------------------------------------------------------------------------

@@ -20,7 +20,7 @@ from ...ground import colours
 from .heap_records import heap_records, packings
 from .records import records
 
-__all__ = ["page_files", "write_page"]
+__all__ = ["as_one", "module_of_page", "page_files", "write_page"]
 
 # Each after those that it imports.
 _MODULES = (
@@ -77,13 +77,13 @@ def write_page(folder: Path) -> list[Path]:
 def _script(module: bytes) -> str:
     """All modules of the pair as one, which browsers load from a disk as well."""
     encoded = base64.b64encode(module).decode()
-    return _joined(
+    return as_one(
         wasm.script(),
         _told("RECORDS", records()),
         f'const MODULE = Uint8Array.from(atob("{encoded}"), (letter) => letter.charCodeAt(0));',
         f"const SHARED = () => ({{ {_shared_names()} }});",
-        *map(_module, _MODULES),
-    ).replace("</", "<\\/")
+        *map(module_of_page, _MODULES),
+    )
 
 
 def _fit_script() -> str:
@@ -94,19 +94,19 @@ def _fit_script() -> str:
     known = records()
     solver = wasm.script().replace("import.meta.url", "location.href")
     told = _told("RECORDS", {name: known[name] for name in _OF_A_FIT})
-    return _joined('"use strict";', solver, told, *map(_module, _FIT_MODULES)).replace("</", "<\\/")
+    return as_one('"use strict";', solver, told, *map(module_of_page, _FIT_MODULES))
 
 
 def _heap_script() -> str:
     """All modules of the heap as a plain script: one function of what they take from the page."""
     told = {**heap_records(), "html": _text("heap/heap.html"), "style": _text("heap/heap.css")}
-    body = _joined(_told("HEAP_RECORDS", told), _told("PACKINGS", packings()), *_heap_modules())
+    body = as_one(_told("HEAP_RECORDS", told), _told("PACKINGS", packings()), *_heap_modules())
     head = f"window.explorer.makeHeap = ({{ {_shared_names()} }}) => {{"
     return f'"use strict";\n{head}\n{body}\nreturn makeHeap();\n}};\n'
 
 
 def _heap_modules() -> list[str]:
-    return [_module(f"heap/{name}") for name in _HEAP_MODULES]
+    return [module_of_page(f"heap/{name}") for name in _HEAP_MODULES]
 
 
 def _shared_names() -> str:
@@ -115,8 +115,9 @@ def _shared_names() -> str:
     return ", ".join(sorted({name.strip() for names in found for name in names.split(",") if name.strip()}))
 
 
-def _joined(*parts: str) -> str:
-    return "\n".join(_EXPORT.sub("", _IMPORT.sub("", part)) for part in parts)
+def as_one(*parts: str) -> str:
+    """Modules as one script, each after those that it imports, for a page that opens from a disk as well."""
+    return "\n".join(_EXPORT.sub("", _IMPORT.sub("", part)) for part in parts).replace("</", "<\\/")
 
 
 def _told(name: str, known: Any) -> str:
@@ -124,7 +125,8 @@ def _told(name: str, known: Any) -> str:
     return f"const {name} = {json.dumps(known, ensure_ascii=False, separators=(',', ':'))};"
 
 
-def _module(name: str) -> str:
+def module_of_page(name: str) -> str:
+    """A module of the page."""
     return _text(f"{name}.mjs")
 
 
