@@ -8,6 +8,14 @@ from pathlib import Path
 from typing import Any, Self
 
 _PATIENCE = 60.0  # [s]
+_NARROWEST = 500  # window that it has [px]
+_ERRORS = """
+const errors = Services.console.getMessageArray().filter(
+  (told) => told instanceof Ci.nsIScriptError && !(told.flags & Ci.nsIScriptError.warningFlag)
+    && /^(file|https?|blob):/.test(told.sourceName));
+Services.console.reset();
+return errors.map((told) => `${told.errorMessage} (${told.sourceName}:${told.lineNumber})`);
+"""
 
 
 class Firefox:
@@ -19,16 +27,29 @@ class Firefox:
         Where it is.
     folder : Path
         For its profile.
+    dark : bool
+        Whether pages are told that the system is.
     """
 
-    def __init__(self, program: str, folder: Path):
+    def __init__(self, program: str, folder: Path, *, dark: bool = False):
         profile = folder / "profile"
         profile.mkdir()
+        self._said = folder / "said.txt"
         with socket.create_server(("127.0.0.1", 0)) as free:
             port = free.getsockname()[1]
-        (profile / "user.js").write_text(f'user_pref("marionette.port", {port});\n')
-        command = [program, "--headless", "--marionette", "--no-remote", "--profile", str(profile)]
-        self._process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        preferences = {
+            "marionette.port": port,
+            "layout.css.prefers-color-scheme.content-override": 0 if dark else 1,
+            "browser.dom.window.dump.enabled": True,
+            "devtools.console.stdout.content": True,
+            "devtools.console.stdout.chrome": False,
+        }
+        lines = [f'user_pref("{name}", {json.dumps(value)});' for name, value in preferences.items()]
+        (profile / "user.js").write_text("\n".join([*lines, ""]))
+        options = ["--headless", "--marionette", "--remote-allow-system-access", "--no-remote"]
+        with self._said.open("w") as said:
+            command = [program, *options, "--profile", str(profile)]
+            self._process = subprocess.Popen(command, stdout=said, stderr=subprocess.DEVNULL)
         self._socket = self._connected(port)
         self._asked = 0
 
@@ -78,6 +99,23 @@ class Firefox:
     def run(self, script: str) -> Any:
         """What a script returns."""
         return self._ask("WebDriver:ExecuteScript", script=script, args=[], sandbox=None)["value"]
+
+    def _run_in_itself(self, script: str, *given: Any) -> Any:
+        """What a script returns that runs in the browser and not in the page."""
+        self._ask("Marionette:SetContext", value="chrome")
+        found = self._ask("WebDriver:ExecuteScript", script=script, args=list(given), sandbox="system")["value"]
+        self._ask("Marionette:SetContext", value="content")
+        return found
+
+    def narrow(self, width: int) -> None:
+        """Give pages a width, which is smaller than any window."""
+        self._ask("WebDriver:SetWindowRect", width=_NARROWEST, height=1200)
+        self._run_in_itself("ZoomManager.zoom = arguments[0]", _NARROWEST / width)
+
+    def complaints(self) -> list[str]:
+        """Errors of scripts since the last call, and all that pages wrote on the console since the beginning."""
+        said = self._said.read_text(errors="replace").splitlines()
+        return [*self._run_in_itself(_ERRORS), *(line for line in said if line.startswith(("console.e", "console.w")))]
 
     def wait_for(self, condition: str) -> None:
         """Wait until an expression is true."""
