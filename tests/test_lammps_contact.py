@@ -74,6 +74,9 @@ def test_a_bridge_holds_breaks_or_is_left_to_the_host(program):
     assert is_left  # beyond the cell
     ((_, is_left),) = told(program, [("cell", "nan", "nan", rupture, "nan", "nan", *series), ("pull", total)])
     assert is_left  # a bridge that has to be made anew
+    found = told(program, [("no_cell", total, contact), ("pull", total - 1e-6), ("pull", repr(total + 1e-9))])
+    assert found[0] == [contact, 0.0]
+    assert found[1][1] == 1.0  # the first time that its solids are apart
 
 
 @pytest.mark.skipif(shutil.which("nvcc") is None, reason="nvcc is not installed")

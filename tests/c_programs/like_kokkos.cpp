@@ -2,6 +2,7 @@
    for rows of numbers from the standard input; for a GPU it is compiled alone.
 
    cell SUM TOUCHING RUPTURE OFFSET SLOPE and the eight terms of a series: the bridge that is asked from here on
+   no_cell SUM TOUCHING: the same of one whose solids were never apart
    pull DISTANCE: attraction, and whether the host has to make the cell anew
    damping SEPARATION VOLUME RADIUS1 RADIUS2 VISCOSITY */
 #include "contact.h"
@@ -14,9 +15,10 @@
 
 using namespace pendular_lammps;
 
-/* Attraction of each bridge, whether it breaks, and whether the host has to make its cell anew. */
+/* Attraction of each bridge, and whether the host has to make its cell anew, or the first one. */
 struct BridgeFunctor {
     const Ends *ends;
+    const int *cell; /* number of that of each bridge, -1 if it has none */
     const Cell *cells;
     const double *distance;
     double *pull;
@@ -24,7 +26,10 @@ struct BridgeFunctor {
 
     ON_DEVICE void operator()(int k) const
     {
-        pull[k] = pull_of(ends[k], cells[k], distance[k]);
+        if (distance[k] <= ends[k].sum)
+            pull[k] = ends[k].touching;
+        else
+            pull[k] = cell[k] < 0 ? NAN : pull_of(ends[k], cells[cell[k]], distance[k]);
         is_left_to_host[k] = pull[k] != pull[k];
     }
 };
@@ -45,6 +50,7 @@ int main()
     double a, b, c, d, e;
     Ends ends = {0, 1, 0.0, 0.0};
     Cell cell;
+    int number = -1;
     while (std::scanf("%15s", kind) == 1) {
         if (std::strcmp(kind, "cell") == 0) {
             if (std::scanf("%lf %lf %lf %lf %lf", &ends.sum, &ends.touching, &cell.rupture, &cell.offset, &cell.slope) != 5)
@@ -52,12 +58,17 @@ int main()
             for (double &term : cell.series)
                 if (std::scanf("%lf", &term) != 1)
                     return 1;
+            number = 0;
+        } else if (std::strcmp(kind, "no_cell") == 0) {
+            if (std::scanf("%lf %lf", &ends.sum, &ends.touching) != 2)
+                return 1;
+            number = -1;
         } else if (std::strcmp(kind, "pull") == 0) {
             double pull;
             int is_left;
             if (std::scanf("%lf", &a) != 1)
                 return 1;
-            BridgeFunctor{&ends, &cell, &a, &pull, &is_left}(0);
+            BridgeFunctor{&ends, &number, &cell, &a, &pull, &is_left}(0);
             std::printf("%.17g %d\n", pull, is_left);
         } else {
             if (std::scanf("%lf %lf %lf %lf %lf", &a, &b, &c, &d, &e) != 5)

@@ -1,9 +1,9 @@
-/* A bridge, as it is kept from step to step on the rank that reckons with it. SPDX-License-Identifier: BSD-3-Clause */
+/* Bridges, as they are kept from step to step on the rank that reckons with them. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef PENDULAR_LAMMPS_BRIDGE_H
 #define PENDULAR_LAMMPS_BRIDGE_H
 
-#include <cmath>
 #include <memory>
+#include <vector>
 
 #include "contact.h"
 #include "lmptype.h"
@@ -13,11 +13,49 @@ namespace pendular_lammps {
 
 class Law;
 
+/* A bridge of solids apart, and what was learnt when it was last looked at. */
 struct Bridge : Cell {
-    Law *law = nullptr;
-    LAMMPS_NS::tagint tag1 = 0, tag2 = 0;
     double held = 0.0;                     /* suction or volume */
     std::unique_ptr<pendular_state> state; /* to start from, where the solver is asked */
+};
+
+/* What no step asks of a bridge whose solids overlap. */
+struct Origin {
+    LAMMPS_NS::tagint tag1, tag2;
+    Law *law;
+    double held; /* suction or volume */
+};
+
+/* All bridges of a rank, in the order of their first atoms: a step streams through the ends alone. Few bridges are of
+   solids apart, and only these have a record. */
+struct Bridges {
+    std::vector<Ends> ends;
+    std::vector<Origin> origin;
+    std::vector<int> record; /* its number, -1 if there is none */
+    std::vector<Bridge> records;
+
+    int count() const { return static_cast<int>(ends.size()); }
+
+    void clear();
+    void add(const Ends &, const Origin &);
+
+    /* Made if there was none. */
+    Bridge &record_of(int number);
+    void drop_record(int number);
+
+    /* The last one takes its number. */
+    void remove(int number);
+
+    /* What it holds or a radius is another one: it has to be made anew. */
+    void renew(int number) { ends[number].sum = NAN; }
+
+    /* Put those of another set behind, which is left empty. */
+    void append(Bridges &);
+
+    double bytes() const;
+
+private:
+    std::vector<int> unused; /* records */
 };
 
 }    // namespace pendular_lammps

@@ -47,34 +47,34 @@ void ComputeBridges::init()
 /* Both grains have to be of the group. */
 bool ComputeBridges::counts(int number) const
 {
-    const Ends &ends = pair->ends[number];
+    const Ends &ends = pair->bridges.ends[number];
     return atom->mask[ends.i] & atom->mask[ends.j] & groupbit;
 }
 
 double ComputeBridges::value(int number, Column column) const
 {
-    const Ends &ends = pair->ends[number];
-    const Bridge &bridge = pair->bridges[number];
-    const Law &law = *bridge.law;
+    const Ends &ends = pair->bridges.ends[number];
+    const Origin &of = pair->bridges.origin[number];
+    const Law &law = *of.law;
     const Solids solids = pair->solids_of(law, ends.i, ends.j);
     const double separation = pair->separation_of(ends);
     switch (column) {
     case ID1:
-        return static_cast<double>(std::min(bridge.tag1, bridge.tag2));
+        return static_cast<double>(std::min(of.tag1, of.tag2));
     case ID2:
-        return static_cast<double>(std::max(bridge.tag1, bridge.tag2));
+        return static_cast<double>(std::max(of.tag1, of.tag2));
     case SEPARATION:
         return separation;
     case FORCE:
-        return law.force(bridge, solids, separation);
+        return law.force(of.held, solids, separation);
     case VOLUME:
-        return law.volume(bridge, solids, separation);
+        return law.volume(of.held, solids, separation);
     case SUCTION:
-        return law.suction(bridge, solids, separation);
+        return law.suction(of.held, solids, separation);
     case ENERGY:
-        return law.energy(bridge, solids, separation);
+        return law.energy(of.held, solids, separation);
     case RUPTURE:
-        return law.rupture(bridge.held, solids);
+        return law.rupture(of.held, solids);
     }
     return NAN;
 }
@@ -90,7 +90,7 @@ void ComputeBridges::compute_vector()
 {
     invoked_vector = invoked_scalar = update->ntimestep;
     std::fill(sums, sums + 3, 0.0);
-    for (int k = 0; k < static_cast<int>(pair->ends.size()); ++k)
+    for (int k = 0; k < pair->bridges.count(); ++k)
         if (counts(k)) {
             sums[0] += 1.0;
             sums[1] += value(k, VOLUME);
@@ -103,7 +103,7 @@ void ComputeBridges::compute_local()
 {
     invoked_local = update->ntimestep;
     values.clear();
-    for (int k = 0; k < static_cast<int>(pair->ends.size()); ++k)
+    for (int k = 0; k < pair->bridges.count(); ++k)
         if (counts(k))
             for (Column column : columns)
                 values.push_back(value(k, column));

@@ -7,15 +7,16 @@
 
 namespace pendular_lammps {
 
-/* What the loop over all bridges needs of one whose solids overlap, as most do. */
+/* What a step asks of a bridge whose solids overlap, as most do: these lie side by side, in the order of i. */
 struct Ends {
     int i, j;        /* local atom; local atom or ghost */
     double sum;      /* of the radii, NaN if the bridge has to be made anew */
     double touching; /* attraction at contact */
 };
 
-/* Between two events a force is a square root and a polynomial of one variable: that of the table in the cell where the
-   bridge was last looked at. It is made anew when the bridge leaves the cell, or what it holds or a radius changes. */
+/* What a step asks of a bridge of solids apart besides. Between two events a force is a square root and a polynomial of one
+   variable: that of the table in the cell where the bridge was last looked at. It is made anew when the bridge leaves the
+   cell, or what it holds or a radius changes. */
 struct Cell {
     double rupture = 0.0; /* separation at which it breaks */
     double offset = 0.0, slope = 0.0, bend = 0.0, series[PENDULAR_TABLE_LANES] = {};

@@ -65,11 +65,10 @@ void FixBridges::pre_exchange()
     if (!is_behind || !pair)
         return;
     is_behind = false;
-    const std::vector<Ends> &ends = pair->ends;
     std::fill(count.begin(), count.end(), 0);
-    for (const Ends &bridge : ends) {
-        ++count[bridge.i];
-        ++count[bridge.j];
+    for (const Ends &ends : pair->bridges.ends) {
+        ++count[ends.i];
+        ++count[ends.j];
     }
     counts_only = true;
     comm->reverse_comm(this, 1);
@@ -104,11 +103,12 @@ void FixBridges::fill()
         count[i] = 0;
     }
     pool.resize(size);
-    for (int k = 0; k < static_cast<int>(pair->ends.size()); ++k) {
-        const Bridge &bridge = pair->bridges[k];
-        const double held = !bridge.law->is_drained() ? bridge.held : volumes_wanted ? -pair->volume_of(k) : 0.0;
-        add(pair->ends[k].i, {bridge.tag2, k, held});
-        add(pair->ends[k].j, {bridge.tag1, k, held});
+    for (int k = 0; k < pair->bridges.count(); ++k) {
+        const Ends &ends = pair->bridges.ends[k];
+        const Origin &of = pair->bridges.origin[k];
+        const double held = !of.law->is_drained() ? of.held : volumes_wanted ? -pair->volume_of(k) : 0.0;
+        add(ends.i, {of.tag2, k, held});
+        add(ends.j, {of.tag1, k, held});
     }
 }
 

@@ -214,8 +214,7 @@ double FixWall::attraction(int i, double held, double separation)
     const double radius = atom->radius[i];
     const Solids solids = {radius, PLANE};
     if (sum != radius || bridge.held != held) {
-        bridge.held = held;
-        touching = law.renew(bridge, solids);
+        touching = law.renew(bridge, held, solids);
         sum = radius;
         if (std::isnan(touching))
             error->one(FLERR, "{}: atom {}: {}", WHO, atom->tag[i], law.refusal(held, solids));
@@ -296,12 +295,12 @@ void FixWall::pull(int i, const Face &face, double held)
     const double *way = face.way, *v = atom->v[i], arm = -face.distance;
     double force = attraction(i, held, separation);
     if (law.is_viscous())
-        force += law.drag(bridge, solids, separation, -(v[0] * way[0] + v[1] * way[1] + v[2] * way[2]));
+        force += law.drag(held, solids, separation, -(v[0] * way[0] + v[1] * way[1] + v[2] * way[2]));
     for (int k = 0; k < 3; ++k) {
         atom->f[i][k] += force * way[k];
         total[FORCE_X + k] -= force * way[k];
     }
-    const double volume = law.volume(bridge, solids, separation);
+    const double volume = law.volume(held, solids, separation);
     kept[i] += volume;
     total[BRIDGES] += 1.0;
     total[LIQUID] += volume;
@@ -320,11 +319,8 @@ void FixWall::pull(int i, const Face &face, double held)
 double FixWall::compute_vector(int n)
 {
     if (!is_summed) {
-        for (const Pulled &of : pulled) {
-            bridge.held = of.held;
-            total[ENERGY] += law.energy(bridge, {of.radius, PLANE}, of.separation);
-        }
-        sum = NAN;
+        for (const Pulled &of : pulled)
+            total[ENERGY] += law.energy(of.held, {of.radius, PLANE}, of.separation);
         MPI_Allreduce(total, total_of_all, NUMBERS, MPI_DOUBLE, MPI_SUM, world);
         is_summed = true;
     }

@@ -119,7 +119,7 @@ int Law::read_held(int narg, char **arg)
     if (utils::strmatch(arg[1], "^v_"))
         variable = arg[1] + 2;
     else
-        held = value_of(number(arg[1]));
+        now_held = value_of(number(arg[1]));
     return 2;
 }
 
@@ -148,29 +148,30 @@ bool Law::refresh()
     modify->clearstep_compute();
     const double value = value_of(input->variable->compute_equal(index));
     modify->addstep_compute(update->ntimestep + 1);
-    const bool is_changed = value != held;
-    held = value;
+    const bool is_changed = value != now_held;
+    now_held = value;
     return is_changed;
 }
 
-double Law::rupture(double value, const Solids &solids) const
+double Law::rupture(double held, const Solids &solids) const
 {
-    return source->rupture(kind, value, solids, tension);
+    return source->rupture(kind, held, solids, tension);
 }
 
 double Law::range(const Solids &solids) const
 {
     if (reach >= 0.0)
         return std::fmax(reach, formation);
-    const double end = rupture(held, solids);
+    const double end = rupture(now_held, solids);
     if (std::isnan(end))
-        refuse(refusal(held, solids));
+        refuse(refusal(now_held, solids));
     return std::fmax(end, formation);
 }
 
-double Law::renew(Bridge &bridge, const Solids &solids) const
+double Law::renew(Bridge &bridge, double held, const Solids &solids) const
 {
-    bridge.rupture = rupture(bridge.held, solids);
+    bridge.held = held;
+    bridge.rupture = rupture(held, solids);
     bridge.slope = NAN;
     if (!(bridge.rupture > 0.0))
         return bridge.rupture; /* no bridge, or no number */
@@ -184,38 +185,37 @@ double Law::pull(Bridge &bridge, const Solids &solids, double touching, double s
     return separation <= 0.0 ? touching : source->pull(kind, bridge, solids, tension, separation);
 }
 
-double Law::force(const Bridge &bridge, const Solids &solids, double separation) const
+double Law::force(double held, const Solids &solids, double separation) const
 {
-    Bridge copy;
-    copy.held = bridge.held;
-    copy.rupture = bridge.rupture;
-    return source->pull(kind, copy, solids, tension, separation);
+    Bridge bridge;
+    const double touching = renew(bridge, held, solids);
+    return pull(bridge, solids, touching, separation);
 }
 
-double Law::energy(const Bridge &bridge, const Solids &solids, double separation) const
+double Law::energy(double held, const Solids &solids, double separation) const
 {
-    return source->energy(kind, bridge, solids, tension, separation);
+    return source->energy(kind, held, solids, tension, separation);
 }
 
-double Law::volume(const Bridge &bridge, const Solids &solids, double separation) const
+double Law::volume(double held, const Solids &solids, double separation) const
 {
-    return is_drained() ? source->liquid(kind, bridge, solids, tension, separation) : bridge.held;
+    return is_drained() ? source->liquid(kind, held, solids, tension, separation) : held;
 }
 
-double Law::suction(const Bridge &bridge, const Solids &solids, double separation) const
+double Law::suction(double held, const Solids &solids, double separation) const
 {
-    return is_drained() ? bridge.held : source->liquid(kind, bridge, solids, tension, separation);
+    return is_drained() ? held : source->liquid(kind, held, solids, tension, separation);
 }
 
-double Law::drag(const Bridge &bridge, const Solids &solids, double separation, double speed) const
+double Law::drag(double held, const Solids &solids, double separation, double speed) const
 {
     const double gap = std::fmax(separation, smallest_gap);
-    return speed * pendular_damping(gap, volume(bridge, solids, separation), solids.radius1, solids.radius2, viscosity);
+    return speed * pendular_damping(gap, volume(held, solids, separation), solids.radius1, solids.radius2, viscosity);
 }
 
-std::string Law::refusal(double value, const Solids &solids) const
+std::string Law::refusal(double held, const Solids &solids) const
 {
-    return source->refusal(kind, value, solids, tension);
+    return source->refusal(kind, held, solids, tension);
 }
 
 void check_units(LAMMPS *lmp, const std::string &who)

@@ -23,7 +23,7 @@ public:
     /* Evaluate the variable; whether another value is held than before. All ranks have to ask. */
     bool refresh();
 
-    double control() const { return held; }
+    double control() const { return now_held; }
     bool is_drained() const { return kind == PENDULAR_SUCTION; }
     bool is_of_two_angles() const { return source->is_of_two_angles(); }
     bool is_variable() const { return !variable.empty(); }
@@ -33,23 +33,23 @@ public:
     /* Longest separation of these solids at which there may be a bridge, or one may form. */
     double range(const Solids &) const;
 
-    /* Make a bridge anew: its rupture distance, and the attraction at contact, which is returned. */
-    double renew(Bridge &, const Solids &) const;
+    /* Make a bridge anew: what it holds, its rupture distance, and the attraction at contact, which is returned. */
+    double renew(Bridge &, double held, const Solids &) const;
 
     /* Attraction before rupture; 0 from there on. */
     double pull(Bridge &, const Solids &, double touching, double separation) const;
 
-    /* The same, of a bridge that is not changed by the question. */
-    double force(const Bridge &, const Solids &, double separation) const;
+    /* The same, of a bridge without a record. */
+    double force(double held, const Solids &, double separation) const;
 
-    double energy(const Bridge &, const Solids &, double separation) const;
-    double volume(const Bridge &, const Solids &, double separation) const;
-    double suction(const Bridge &, const Solids &, double separation) const;
+    double energy(double held, const Solids &, double separation) const;
+    double volume(double held, const Solids &, double separation) const;
+    double suction(double held, const Solids &, double separation) const;
 
     bool is_viscous() const { return viscosity > 0.0; }
 
     /* Attraction of solids that move apart, by the viscosity of the liquid. */
-    double drag(const Bridge &, const Solids &, double separation, double speed) const;
+    double drag(double held, const Solids &, double separation, double speed) const;
 
     /* Why there was no number. */
     std::string refusal(double held, const Solids &) const;
@@ -58,7 +58,7 @@ private:
     std::string who, variable;
     std::shared_ptr<const Source> source;
     int kind = -1;
-    double tension = -1.0, held = NAN, kelvin_pressure = -1.0, viscosity = 0.0, smallest_gap = -1.0;
+    double tension = -1.0, now_held = NAN, kelvin_pressure = -1.0, viscosity = 0.0, smallest_gap = -1.0;
 
     int read_source(int narg, char **arg);
     int read_held(int narg, char **arg);

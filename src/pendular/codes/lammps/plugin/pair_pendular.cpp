@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
-#include <iterator>
+#include <utility>
 
 #include "atom.h"
 #include "comm.h"
@@ -255,10 +255,8 @@ void PairPendular::take_list()
             cutforce = std::max(cutforce, std::sqrt(cutsq[i][j]));
     check_radii();
     check_box();
-    former_bridges.swap(bridges);
-    former_ends.swap(ends);
+    std::swap(former, bridges);
     bridges.clear();
-    ends.clear();
     watched.clear();
     if (film.is_there())
         film.clear(atom->nlocal + atom->nghost);
@@ -267,10 +265,7 @@ void PairPendular::take_list()
     const NeighList &near = lender ? *lender->list : *list;
     for (int row = 0; row < near.inum; ++row)
         find_watched(near, near.ilist[row]);
-    ends.insert(ends.end(), ends_apart.begin(), ends_apart.end());
-    std::move(bridges_apart.begin(), bridges_apart.end(), std::back_inserter(bridges));
-    ends_apart.clear();
-    bridges_apart.clear();
+    bridges.append(apart);
     if (film.is_there())
         return_lost();
 }
@@ -278,32 +273,40 @@ void PairPendular::take_list()
 /* The rank that has the grain of the lower id has the bridge. */
 void PairPendular::find_bridges(int i)
 {
-    double **x = atom->x;
     const tagint own = atom->tag[i];
     for (const Partner *partner = history->begin(i); partner != history->end(i); ++partner) {
         if (partner->tag < own || partner->tag > atom->map_tag_max)
             continue;
-        const int j = domain->closest_image(i, atom->map(partner->tag));
+        int j = atom->map(partner->tag);
         if (j < 0)
             continue;
-        const double dx = x[j][0] - x[i][0], dy = x[j][1] - x[i][1], dz = x[j][2] - x[i][2];
+        double square = square_of_distance(i, j);
+        if (square > cutforce * cutforce) { /* nearer than half of the box there is no other image */
+            j = domain->closest_image(i, j);
+            square = square_of_distance(i, j);
+        }
         const double sum = atom->radius[i] + atom->radius[j];
-        take_over(i, j, *law_of[atom->type[i]][atom->type[j]], *partner, dx * dx + dy * dy + dz * dz > sum * sum);
+        take_over(i, j, *law_of[atom->type[i]][atom->type[j]], *partner, sum, square > sum * sum);
     }
+}
+
+double PairPendular::square_of_distance(int i, int j) const
+{
+    const double *one = atom->x[i], *other = atom->x[j];
+    const double dx = other[0] - one[0], dy = other[1] - one[1], dz = other[2] - one[2];
+    return dx * dx + dy * dy + dz * dz;
 }
 
 /* The pairs of an atom that may form a bridge before the next list. */
 void PairPendular::find_watched(const NeighList &near, int i)
 {
-    double **x = atom->x;
     const double *radius = atom->radius;
     const Partner *begin = history->begin(i), *end = history->end(i);
     for (int k = 0; k < near.numneigh[i]; ++k) {
         const int j = near.firstneigh[i][k] & NEIGHMASK;
-        const double dx = x[j][0] - x[i][0], dy = x[j][1] - x[i][1], dz = x[j][2] - x[i][2];
         const double reach
             = radius[i] + radius[j] + law_of[atom->type[i]][atom->type[j]]->formation + neighbor->skin;
-        if (dx * dx + dy * dy + dz * dz > reach * reach)
+        if (square_of_distance(i, j) > reach * reach)
             continue;
         const tagint tag = atom->tag[j];
         if (std::none_of(begin, end, [tag](const Partner &partner) { return partner.tag == tag; }))
@@ -313,7 +316,7 @@ void PairPendular::find_watched(const NeighList &near, int i)
 
 /* A bridge of the list before, which this rank may have known. Those of grains apart stand behind all others, where the
    processor foresees which they are. */
-void PairPendular::take_over(int i, int j, Law &law, const Partner &partner, bool is_apart)
+void PairPendular::take_over(int i, int j, Law &law, const Partner &partner, double sum, bool is_apart)
 {
     const double held = law.is_drained() ? law.control() : std::fabs(partner.held);
     if (film.is_there())
@@ -321,24 +324,18 @@ void PairPendular::take_over(int i, int j, Law &law, const Partner &partner, boo
             film.returned[end] += std::fmax(partner.held, 0.0);
             film.standing[end] += 1.0;
         }
-    Ends pair = {i, j, NAN, NAN};
-    Bridge bridge;
-    if (partner.former >= 0) {
-        Bridge &former = former_bridges[partner.former];
-        const Ends &of_former = former_ends[partner.former];
-        const double sum = atom->radius[i] + atom->radius[j];
-        if (former.law == &law && former.held == held && of_former.sum == sum) {
-            pair.sum = sum;
-            pair.touching = of_former.touching;
-        }
-        bridge = std::move(former);
-    }
-    bridge.law = &law;
-    bridge.tag1 = atom->tag[i];
-    bridge.tag2 = atom->tag[j];
-    bridge.held = held;
-    (is_apart ? ends_apart : ends).push_back(pair);
-    (is_apart ? bridges_apart : bridges).push_back(std::move(bridge));
+    Bridges &set = is_apart ? apart : bridges;
+    const int number = set.count(), before = partner.former;
+    set.add({i, j, NAN, NAN}, {atom->tag[i], partner.tag, &law, held});
+    if (before < 0)
+        return;
+    const Origin &of = former.origin[before];
+    if (of.law != &law || of.held != held || former.ends[before].sum != sum)
+        return;
+    set.ends[number].sum = sum;
+    set.ends[number].touching = former.ends[before].touching;
+    if (is_apart && former.record[before] >= 0)
+        set.record_of(number) = std::move(former.records[former.record[before]]);
 }
 
 }    // namespace pendular_lammps

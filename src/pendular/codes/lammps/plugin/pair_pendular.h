@@ -23,8 +23,7 @@ struct Watched {
 /* Each pair of grains is in the list of one rank, which alone decides whether they have a bridge. */
 class PairPendular : public LAMMPS_NS::Pair {
 public:
-    std::vector<Ends> ends;      /* of the bridges of this rank, */
-    std::vector<Bridge> bridges; /* and all else about them */
+    Bridges bridges; /* of this rank */
 
     explicit PairPendular(LAMMPS_NS::LAMMPS *);
     ~PairPendular() override;
@@ -48,6 +47,7 @@ public:
     /* The two solids of a bridge as its law has them, and their separation. */
     Solids solids_of(const Law &, int i, int j) const;
     double separation_of(const Ends &) const;
+    double square_of_distance(int i, int j) const; /* of the centres */
 
     /* Liquid in a bridge. */
     double volume_of(int number) const;
@@ -56,10 +56,10 @@ private:
     std::vector<std::shared_ptr<Law>> laws, retired;
     std::vector<std::vector<Law *>> law_of; /* by two types */
     std::vector<double> largest;            /* radius of each type */
-    std::vector<Ends> former_ends, ends_apart; /* of the list before, and while a list is made */
-    std::vector<Bridge> former_bridges, bridges_apart;
-    std::vector<Watched> watched;             /* pairs that may come near enough for a bridge */
-    std::vector<int> broken;                  /* numbers of bridges */
+    Bridges former, apart;                  /* of the list before, and while a list is made */
+    std::vector<Watched> watched;           /* pairs that may come near enough for a bridge */
+    std::vector<int> arrived;               /* numbers of those that are near enough */
+    std::vector<int> broken;                /* numbers of bridges */
     std::vector<Candidate> forming;
     std::vector<double> on_ghosts; /* force, energy and virial, where LAMMPS does not bring them home */
     FixBridges *history = nullptr;
@@ -77,11 +77,13 @@ private:
     LAMMPS_NS::Pair *list_lender() const;
     void find_bridges(int i);
     void find_watched(const LAMMPS_NS::NeighList &near, int i);
-    void take_over(int i, int j, Law &, const Partner &, bool is_apart);
+    void take_over(int i, int j, Law &, const Partner &, double sum, bool is_apart);
     void refresh();
-    template <bool TALLIES> void add_forces();
+    template <bool TALLIES, bool KEEPS_GHOSTS> void add_forces();
+    void look_apart(int first, int size, const double *distance, double *part);
     double pull_at(int number, double distance);
     double renewed_pull(int number, double distance);
+    void make(int number, Bridge &, const Solids &);
     void add_force(int number);
     void add_drags();
     double *other_end(int j);
@@ -89,6 +91,7 @@ private:
     void watch(int i, int j);
     double nearness(int i, int j) const;
     void look_at_watched();
+    bool is_joined(int i, int j);
     double held_by(int i, int j, Law &, double offered) const;
     void form(int i, int j, Law &, double held);
     void remove_broken();

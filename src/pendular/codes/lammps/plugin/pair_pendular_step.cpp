@@ -14,7 +14,14 @@ namespace pendular_lammps {
 namespace {
     constexpr double ROUNDING = 1.0 + 1e-12;
     constexpr int HOME = 10; /* numbers of a ghost: force, energy, virial */
-    constexpr size_t AHEAD = 32; /* bridges that are fetched from memory before their turn */
+    constexpr int BLOCK = 64, AHEAD = 96; /* bridges that are looked at together; that are fetched before their turn */
+
+    void fetch(const double *row)
+    {
+#ifdef __GNUC__
+        __builtin_prefetch(row);
+#endif
+    }
 }    // namespace
 
 void PairPendular::compute(int eflag, int vflag)
@@ -25,10 +32,10 @@ void PairPendular::compute(int eflag, int vflag)
     clear_ghosts();
     broken.clear();
     forming.clear();
-    if (evflag)
-        add_forces<true>();
+    if (force->newton_pair)
+        evflag ? add_forces<true, false>() : add_forces<false, false>();
     else
-        add_forces<false>();
+        evflag ? add_forces<true, true>() : add_forces<false, true>();
     look_at_watched();
     if (film.is_there())
         exchange_film();
@@ -41,7 +48,7 @@ void PairPendular::compute(int eflag, int vflag)
 void PairPendular::refresh()
 {
     if (radii_change) {
-        for (Ends &pair : ends)
+        for (Ends &pair : bridges.ends)
             if (pair.sum != atom->radius[pair.i] + atom->radius[pair.j])
                 pair.sum = NAN;
         for (Watched &pair : watched)
@@ -49,84 +56,122 @@ void PairPendular::refresh()
     }
     for (const std::shared_ptr<Law> &law : laws)
         if (law->refresh() && law->is_drained())
-            for (size_t k = 0; k < ends.size(); ++k)
-                if (bridges[k].law == law.get()) {
-                    bridges[k].held = law->control();
-                    ends[k].sum = NAN;
+            for (int k = 0; k < bridges.count(); ++k)
+                if (bridges.origin[k].law == law.get()) {
+                    bridges.origin[k].held = law->control();
+                    bridges.renew(k);
                 }
 }
 
 /* -- Forces --------------------------------------------------------------------------------------------------------- */
 
-template <bool TALLIES> void PairPendular::add_forces()
+/* Block by block: first all distances, so that no bridge waits for the one before it; then, few at most, the bridges of
+   solids apart; at last the forces. */
+template <bool TALLIES, bool KEEPS_GHOSTS> void PairPendular::add_forces()
 {
-    const int count = static_cast<int>(ends.size()), local = atom->nlocal;
+    const int count = bridges.count(), local = atom->nlocal;
     if (count == 0)
         return;
     const double *x = atom->x[0]; /* rows lie side by side, and a pointer to each takes time */
     double *f = atom->f[0];
-    const bool keeps_ghosts = !force->newton_pair;
-    const size_t last = ends.size() - 1;
-    for (int k = 0; k < count; ++k) {
-        const Ends &pair = ends[k];
-#ifdef __GNUC__
-        __builtin_prefetch(&ends[std::min(k + AHEAD, last)]);
-#endif
-        const double *from = x + 3L * pair.i, *to = x + 3L * pair.j;
-        const double dx = to[0] - from[0], dy = to[1] - from[1], dz = to[2] - from[2];
-        const double distance = std::sqrt(dx * dx + dy * dy + dz * dz);
-        double pull = pair.touching;
-        if (!(distance <= pair.sum)) {
-            pull = pull_at(k, distance);
-            if (pull == 0.0) {
-                broken.push_back(k);
-                continue;
-            }
+    double dx[BLOCK], dy[BLOCK], dz[BLOCK], distance[BLOCK], part[BLOCK];
+    for (int first = 0; first < count; first += BLOCK) {
+        const int size = std::min(BLOCK, count - first);
+        const Ends *block = &bridges.ends[first];
+        for (int k = 0; k < size; ++k) {
+            const double *from = x + 3L * block[k].i, *to = x + 3L * block[k].j;
+            const long ahead = 3L * bridges.ends[std::min(first + k + AHEAD, count - 1)].j;
+            fetch(x + ahead);
+            fetch(f + ahead);
+            dx[k] = to[0] - from[0];
+            dy[k] = to[1] - from[1];
+            dz[k] = to[2] - from[2];
         }
-        const double part = pull / distance;
-        double *one = f + 3L * pair.i;
-        double *other = keeps_ghosts && pair.j >= local ? &on_ghosts[HOME * (pair.j - local)] : f + 3L * pair.j;
-        one[0] += dx * part;
-        one[1] += dy * part;
-        one[2] += dz * part;
-        other[0] -= dx * part;
-        other[1] -= dy * part;
-        other[2] -= dz * part;
-        if (TALLIES)
-            tally(k, part, dx, dy, dz);
+        int overlapping = 0;
+        for (int k = 0; k < size; ++k) {
+            distance[k] = std::sqrt(dx[k] * dx[k] + dy[k] * dy[k] + dz[k] * dz[k]);
+            part[k] = block[k].touching / distance[k];
+            overlapping += distance[k] <= block[k].sum;
+        }
+        if (overlapping < size)
+            look_apart(first, size, distance, part);
+        for (int k = 0; k < size; ++k) {
+            double *one = f + 3L * block[k].i;
+            double *other = KEEPS_GHOSTS && block[k].j >= local ? &on_ghosts[HOME * (block[k].j - local)]
+                                                                : f + 3L * block[k].j;
+            const double x_part = dx[k] * part[k], y_part = dy[k] * part[k], z_part = dz[k] * part[k];
+            one[0] += x_part;
+            one[1] += y_part;
+            one[2] += z_part;
+            other[0] -= x_part;
+            other[1] -= y_part;
+            other[2] -= z_part;
+        }
+        for (int k = 0; TALLIES && k < size; ++k)
+            if (part[k] != 0.0)
+                tally(first + k, part[k], dx[k], dy[k], dz[k]);
+    }
+}
+
+/* The bridges of a block whose solids do not overlap: attraction over distance, 0 where they break. */
+void PairPendular::look_apart(int first, int size, const double *distance, double *part)
+{
+    for (int k = 0; k < size; ++k) {
+        if (distance[k] <= bridges.ends[first + k].sum)
+            continue;
+        const double pull = pull_at(first + k, distance[k]);
+        part[k] = pull / distance[k];
+        if (pull == 0.0)
+            broken.push_back(first + k);
     }
 }
 
 /* Attraction of a bridge; 0 from the rupture distance on. */
-inline double PairPendular::pull_at(int number, double distance)
+double PairPendular::pull_at(int number, double distance)
 {
-    const double pull = pull_of(ends[number], bridges[number], distance);
+    const int record = bridges.record[number];
+    const double pull = record < 0 ? NAN : pull_of(bridges.ends[number], bridges.records[record], distance);
     return std::isnan(pull) ? renewed_pull(number, distance) : pull;
 }
 
 /* The same of a bridge that has left its cell, or has to be made anew. */
 double PairPendular::renewed_pull(int number, double distance)
 {
-    Ends &pair = ends[number];
-    Bridge &bridge = bridges[number];
-    const Law &law = *bridge.law;
+    Ends &pair = bridges.ends[number];
+    const Law &law = *bridges.origin[number].law;
     const Solids solids = solids_of(law, pair.i, pair.j);
     if (std::isnan(pair.sum)) {
-        pair.sum = atom->radius[pair.i] + atom->radius[pair.j];
-        pair.touching = law.renew(bridge, solids);
-        if (std::isnan(pair.touching))
-            refuse(pair.i, pair.j, law.refusal(bridge.held, solids));
-        const double reach = pair.sum + bridge.rupture;
-        if (reach * reach > cutsq[atom->type[pair.i]][atom->type[pair.j]] * ROUNDING)
-            refuse(pair.i, pair.j,
-                fmt::format("their bridge reaches {:.6g} between the surfaces, farther than bridges are looked for; give "
-                            "'reach' in pair_coeff",
-                    bridge.rupture));
+        pair.sum = solids.radius1 + solids.radius2;
+        bridges.drop_record(number);
+        if (distance <= pair.sum) {
+            Bridge bridge;
+            make(number, bridge, solids);
+        }
     }
-    const double pull = law.pull(bridge, solids, pair.touching, distance - pair.sum);
+    if (distance <= pair.sum)
+        return pair.touching;
+    if (bridges.record[number] < 0)
+        make(number, bridges.record_of(number), solids);
+    const double pull = law.pull(bridges.record_of(number), solids, pair.touching, distance - pair.sum);
     if (std::isnan(pull))
-        refuse(pair.i, pair.j, law.refusal(bridge.held, solids));
+        refuse(pair.i, pair.j, law.refusal(bridges.origin[number].held, solids));
     return pull;
+}
+
+/* What is known of a bridge before its separation: the attraction at contact, and where it breaks. */
+void PairPendular::make(int number, Bridge &bridge, const Solids &solids)
+{
+    Ends &pair = bridges.ends[number];
+    const Origin &of = bridges.origin[number];
+    pair.touching = of.law->renew(bridge, of.held, solids);
+    if (std::isnan(pair.touching))
+        refuse(pair.i, pair.j, of.law->refusal(of.held, solids));
+    const double reach = pair.sum + bridge.rupture;
+    if (reach * reach > cutsq[atom->type[pair.i]][atom->type[pair.j]] * ROUNDING)
+        refuse(pair.i, pair.j,
+            fmt::format("their bridge reaches {:.6g} between the surfaces, farther than bridges are looked for; give "
+                        "'reach' in pair_coeff",
+                bridge.rupture));
 }
 
 /* Forces by the viscosity of the liquid, where a law has it. */
@@ -138,9 +183,9 @@ void PairPendular::add_drags()
     if (!is_any)
         return;
     double **x = atom->x, **v = atom->v;
-    for (size_t k = 0; k < ends.size(); ++k) {
-        const int i = ends[k].i, j = ends[k].j;
-        const Law &law = *bridges[k].law;
+    for (int k = 0; k < bridges.count(); ++k) {
+        const int i = bridges.ends[k].i, j = bridges.ends[k].j;
+        const Law &law = *bridges.origin[k].law;
         if (!law.is_viscous())
             continue;
         const double way[3] = {x[j][0] - x[i][0], x[j][1] - x[i][1], x[j][2] - x[i][2]};
@@ -149,7 +194,7 @@ void PairPendular::add_drags()
         for (int m = 0; m < 3; ++m)
             speed += (v[j][m] - v[i][m]) * way[m] / distance;
         const double separation = distance - (atom->radius[i] + atom->radius[j]);
-        const double drag = law.drag(bridges[k], solids_of(law, i, j), separation, speed);
+        const double drag = law.drag(bridges.origin[k].held, solids_of(law, i, j), separation, speed);
         const double part = drag / distance;
         double *other = other_end(j);
         for (int m = 0; m < 3; ++m) {
@@ -175,11 +220,11 @@ void PairPendular::refuse(int i, int j, const std::string &why) const
 /* Energy and virial, of which a ghost has its half. */
 void PairPendular::tally(int number, double part, double dx, double dy, double dz)
 {
-    const Ends &pair = ends[number];
-    const Bridge &bridge = bridges[number];
+    const Ends &pair = bridges.ends[number];
+    const Origin &of = bridges.origin[number];
     double energy = 0.0;
     if (eflag_either)
-        energy = bridge.law->energy(bridge, solids_of(*bridge.law, pair.i, pair.j), separation_of(pair));
+        energy = of.law->energy(of.held, solids_of(*of.law, pair.i, pair.j), separation_of(pair));
     ev_tally(pair.i, pair.j, atom->nlocal, 1, energy, 0.0, -part, -dx, -dy, -dz);
 }
 
@@ -199,30 +244,49 @@ void PairPendular::watch(int i, int j)
 
 void PairPendular::look_at_watched()
 {
-    double **x = atom->x;
-    size_t kept = 0;
-    for (size_t k = 0; k < watched.size(); ++k) {
-        const Watched pair = watched[k];
-        const int i = pair.i, j = pair.j;
-        const double dx = x[j][0] - x[i][0], dy = x[j][1] - x[i][1], dz = x[j][2] - x[i][2];
-        if (dx * dx + dy * dy + dz * dz > pair.near) {
-            if (kept != k)
-                watched[kept] = pair;
-            ++kept;
-            continue;
+    const int count = static_cast<int>(watched.size());
+    arrived.clear();
+    if (count == 0)
+        return;
+    const double *x = atom->x[0];
+    for (int first = 0; first < count; first += BLOCK) {
+        const int size = std::min(BLOCK, count - first);
+        const Watched *block = &watched[first];
+        double beyond[BLOCK];
+        for (int k = 0; k < size; ++k) {
+            const double *from = x + 3L * block[k].i, *to = x + 3L * block[k].j;
+            const double dx = to[0] - from[0], dy = to[1] - from[1], dz = to[2] - from[2];
+            beyond[k] = dx * dx + dy * dy + dz * dz - block[k].near;
         }
-        Law &law = *law_of[atom->type[i]][atom->type[j]];
-        if (film.is_there() && !law.is_drained()) {
-            forming.push_back({i, j, &law});
-            continue;
-        }
-        const double held = held_by(i, j, law, INFINITY);
-        if (std::isnan(held))
-            watched[kept++] = pair;
-        else
-            form(i, j, law, held);
+        int away = 0;
+        for (int k = 0; k < size; ++k)
+            away += beyond[k] > 0.0;
+        for (int k = 0; away < size && k < size; ++k)
+            if (!(beyond[k] > 0.0))
+                arrived.push_back(first + k);
     }
-    watched.resize(kept);
+    for (size_t n = arrived.size(); n-- > 0;) {
+        const Watched pair = watched[arrived[n]];
+        if (!is_joined(pair.i, pair.j))
+            continue;
+        watched[arrived[n]] = watched.back();
+        watched.pop_back();
+    }
+}
+
+/* Whether a pair near enough forms a bridge, or asks the film whether it may. */
+bool PairPendular::is_joined(int i, int j)
+{
+    Law &law = *law_of[atom->type[i]][atom->type[j]];
+    if (film.is_there() && !law.is_drained()) {
+        forming.push_back({i, j, &law});
+        return true;
+    }
+    const double held = held_by(i, j, law, INFINITY);
+    if (std::isnan(held))
+        return false;
+    form(i, j, law, held);
+    return true;
 }
 
 /* What a bridge would hold that forms now, of what is offered; NaN for no bridge. */
@@ -238,21 +302,15 @@ double PairPendular::held_by(int i, int j, Law &law, double offered) const
 
 void PairPendular::form(int i, int j, Law &law, double held)
 {
-    ends.push_back({i, j, NAN, NAN});
-    bridges.emplace_back();
-    Bridge &bridge = bridges.back();
-    bridge.law = &law;
-    bridge.tag1 = atom->tag[i];
-    bridge.tag2 = atom->tag[j];
-    bridge.held = held;
-    add_force(static_cast<int>(ends.size()) - 1);
+    bridges.add({i, j, NAN, NAN}, {atom->tag[i], atom->tag[j], &law, held});
+    add_force(bridges.count() - 1);
 }
 
 /* Of one that has just formed. */
 void PairPendular::add_force(int number)
 {
     double **x = atom->x, **f = atom->f;
-    const int i = ends[number].i, j = ends[number].j;
+    const int i = bridges.ends[number].i, j = bridges.ends[number].j;
     const double dx = x[j][0] - x[i][0], dy = x[j][1] - x[i][1], dz = x[j][2] - x[i][2];
     const double distance = std::sqrt(dx * dx + dy * dy + dz * dz);
     const double part = renewed_pull(number, distance) / distance;
@@ -271,19 +329,16 @@ void PairPendular::remove_broken()
 {
     for (size_t n = broken.size(); n-- > 0;) {
         const int k = broken[n];
-        watch(ends[k].i, ends[k].j);
-        ends[k] = ends.back();
-        bridges[k] = std::move(bridges.back());
-        ends.pop_back();
-        bridges.pop_back();
+        watch(bridges.ends[k].i, bridges.ends[k].j);
+        bridges.remove(k);
     }
 }
 
 double PairPendular::volume_of(int number) const
 {
-    const Bridge &bridge = bridges[number];
-    const Ends &pair = ends[number];
-    return bridge.law->volume(bridge, solids_of(*bridge.law, pair.i, pair.j), separation_of(pair));
+    const Origin &of = bridges.origin[number];
+    const Ends &pair = bridges.ends[number];
+    return of.law->volume(of.held, solids_of(*of.law, pair.i, pair.j), separation_of(pair));
 }
 
 /* -- Liquid on the grains ------------------------------------------------------------------------------------------- */
@@ -298,19 +353,20 @@ void PairPendular::exchange_film()
 {
     int is_anything = !forming.empty();
     for (int k : broken)
-        is_anything = is_anything || !bridges[k].law->is_drained();
+        is_anything = is_anything || !bridges.origin[k].law->is_drained();
     MPI_Allreduce(MPI_IN_PLACE, &is_anything, 1, MPI_INT, MPI_MAX, world);
     if (!is_anything)
         return;
     film.clear(atom->nlocal + atom->nghost);
-    std::vector<bool> is_broken(ends.size(), false);
+    std::vector<bool> is_broken(bridges.count(), false);
     for (int k : broken)
         is_broken[k] = true;
-    for (size_t k = 0; k < ends.size(); ++k) {
-        if (bridges[k].law->is_drained())
+    for (int k = 0; k < bridges.count(); ++k) {
+        const Origin &of = bridges.origin[k];
+        if (of.law->is_drained())
             continue;
-        for (int i : {ends[k].i, ends[k].j}) {
-            film.returned[i] += is_broken[k] ? 0.5 * bridges[k].held : 0.0;
+        for (int i : {bridges.ends[k].i, bridges.ends[k].j}) {
+            film.returned[i] += is_broken[k] ? 0.5 * of.held : 0.0;
             film.standing[i] += is_broken[k] ? 0.0 : 1.0;
         }
     }
@@ -324,11 +380,12 @@ void PairPendular::exchange_film()
         film.offer(i, on_grains[i]);
     film.talk = Film::OFFERED;
     comm->forward_comm(this, film.numbers());
-    for (size_t k = 0; k < ends.size(); ++k) {
-        const double gained = film.gained[ends[k].i] + film.gained[ends[k].j];
-        if (gained > 0.0 && !is_broken[k] && !bridges[k].law->is_drained()) {
-            bridges[k].held += gained;
-            ends[k].sum = NAN;
+    for (int k = 0; k < bridges.count(); ++k) {
+        const double gained = film.gained[bridges.ends[k].i] + film.gained[bridges.ends[k].j];
+        Origin &of = bridges.origin[k];
+        if (gained > 0.0 && !is_broken[k] && !of.law->is_drained()) {
+            of.held += gained;
+            bridges.renew(k);
         }
     }
     form_from_film();
@@ -462,8 +519,7 @@ void PairPendular::unpack_forward_comm(int n, int first, double *buffer)
 
 double PairPendular::memory_usage()
 {
-    return Pair::memory_usage() + static_cast<double>(bridges.capacity() + former_bridges.capacity()) * sizeof(Bridge)
-        + static_cast<double>(ends.capacity() + former_ends.capacity()) * sizeof(Ends)
+    return Pair::memory_usage() + bridges.bytes() + former.bytes() + apart.bytes()
         + static_cast<double>(watched.capacity()) * sizeof(Watched);
 }
 

@@ -31,10 +31,10 @@ public:
     virtual double pull(int control, Bridge &, const Solids &, double tension, double separation) const = 0;
 
     /* Potential before rupture: minus the work that breaks the bridge. */
-    virtual double energy(int control, const Bridge &, const Solids &, double tension, double separation) const = 0;
+    virtual double energy(int control, double held, const Solids &, double tension, double separation) const = 0;
 
     /* Volume under suction, suction at constant volume. */
-    virtual double liquid(int control, const Bridge &, const Solids &, double tension, double separation) const = 0;
+    virtual double liquid(int control, double held, const Solids &, double tension, double separation) const = 0;
 
     /* Why an answer was NaN. */
     virtual std::string refusal(int control, double held, const Solids &, double tension) const = 0;

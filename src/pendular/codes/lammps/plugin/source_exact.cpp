@@ -37,22 +37,22 @@ namespace {
         }
 
         double energy(
-            int control, const Bridge &bridge, const Solids &solids, double tension, double separation) const override
+            int control, double held, const Solids &solids, double tension, double separation) const override
         {
             const pendular_pair pair = pair_of(solids, tension);
             pendular_state end, state;
-            if (pendular_rupture(control, bridge.held, &pair, &end) != PENDULAR_FOUND
-                || !find(control, bridge, pair, separation, state))
+            if (pendular_rupture(control, held, &pair, &end) != PENDULAR_FOUND
+                || !find(control, held, pair, separation, state))
                 return NAN;
             const double overlap = std::fmax(-separation, 0.0);
             return potential(control, state, tension) - potential(control, end, tension) - overlap * state.force;
         }
 
         double liquid(
-            int control, const Bridge &bridge, const Solids &solids, double tension, double separation) const override
+            int control, double held, const Solids &solids, double tension, double separation) const override
         {
             pendular_state state;
-            if (!find(control, bridge, pair_of(solids, tension), separation, state))
+            if (!find(control, held, pair_of(solids, tension), separation, state))
                 return NAN;
             return control == PENDULAR_SUCTION ? state.volume : state.curvature * tension;
         }
@@ -77,9 +77,9 @@ namespace {
         }
 
         static bool find(
-            int control, const Bridge &bridge, const pendular_pair &pair, double separation, pendular_state &state)
+            int control, double held, const pendular_pair &pair, double separation, pendular_state &state)
         {
-            return pendular_bridge(control, std::fmax(separation, 0.0), bridge.held, &pair, &state) == PENDULAR_FOUND;
+            return pendular_bridge(control, std::fmax(separation, 0.0), held, &pair, &state) == PENDULAR_FOUND;
         }
 
         /* Of the surfaces, and of the reservoir that holds the suction. */

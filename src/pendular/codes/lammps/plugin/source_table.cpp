@@ -37,17 +37,15 @@ namespace {
             return pull_in_cell(bridge, separation);
         }
 
-        double energy(
-            int, const Bridge &bridge, const Solids &solids, double tension, double separation) const override
+        double energy(int, double held, const Solids &solids, double tension, double separation) const override
         {
-            const pendular_table_place place = find(bridge.held, solids, tension);
+            const pendular_table_place place = find(held, solids, tension);
             return pendular_table_energy_at(&table, &place, separation, tension);
         }
 
-        double liquid(
-            int, const Bridge &bridge, const Solids &solids, double tension, double separation) const override
+        double liquid(int, double held, const Solids &solids, double tension, double separation) const override
         {
-            return pendular_table_liquid(&table, separation, bridge.held, solids.radius1, solids.radius2, tension);
+            return pendular_table_liquid(&table, separation, held, solids.radius1, solids.radius2, tension);
         }
 
         std::string refusal(int, double held, const Solids &solids, double tension) const override
