@@ -1,12 +1,12 @@
-"""What `test_cuda.py` runs in processes of its own: ``python tests/on_cuda.py simulate|solve|page|compile FOLDER``.
+"""What `test_cuda.py` runs in processes of its own: ``python tests/on_cuda.py TASK FOLDER [more]``.
 
 In Numba's simulator, which needs ``NUMBA_ENABLE_CUDASIM=1``, threads of the GPU run as Python; ``NUMBA_DISABLE_JIT=1``
 makes Python of the scalar kernels as well.
 """
 
+import json
 import sys
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 from numba import cuda, typeof, types
@@ -14,7 +14,6 @@ from numba import cuda, typeof, types
 import pendular as pl
 from documents import assert_python_prints_what_it_says
 from pendular.ask import cuda as solver_on_gpu
-from pendular.ask.fields import room_for
 from pendular.table import cuda as table_on_gpu
 from pendular.table import kernels
 
@@ -73,6 +72,20 @@ def solve(folder):
         np.save(folder / f"solver.{held}.npy", found)
 
 
+def share(folder):
+    """Answers of some contacts of each table by threads that share them, each in a cell of its own or all in one."""
+    from simulated_warps import WARP, let_warps_exchange
+
+    let_warps_exchange()
+    table_on_gpu.THREADS = WARP
+    table_on_gpu.blocks_for = lambda count: -(-count // WARP)
+    for path in sorted(folder.glob("*.shared.npz")):
+        table = table_on_gpu.to_device(pl.load_table(folder / path.name.replace(".shared", "")))
+        arguments = np.load(path)["arguments"]
+        found = {asked: getattr(table, asked)(*kernel_arguments(asked, arguments), GAMMA) for asked in NAMES}
+        np.savez(folder / path.name.replace(".shared", ".by_warps"), **found)
+
+
 def check_arrays(table, separation, control, radius1, radius2):
     """Numbers, arrays on the host and on the device, of any shape, go in and out alike."""
     pair = (control[0], radius1[0], radius2[0], GAMMA)
@@ -114,32 +127,25 @@ def run_page(folder):
     assert_python_prints_what_it_says(PAGE.read_text(encoding="utf-8"))
 
 
-def compile_to_ptx(folder):
-    """Machine code for a GPU that need not be here: of the loops, and of a kernel as users write them."""
-    import numba.cuda.cuda_paths
-    import numba.cuda.dispatcher
-    from numba.cuda.cudadrv.nvvm import NVVM
+def compile_all(folder, capability):
+    """Code for a GPU that need not be here: of all kernels, and of one as users write them."""
+    from tools import gpu_code
 
-    numba.cuda.cuda_paths._get_nvrtc_path = lambda: None  # a compiler of C++, which Numba looks for at once
-    try:
-        NVVM()
-    except (ImportError, OSError, RuntimeError) as reason:
-        sys.exit(f"NVVM is not installed: {str(reason).strip().splitlines()[0]}")
-    # A function that is called by another is compiled for the current device, which only a driver knows.
-    numba.cuda.dispatcher.get_current_device = lambda: SimpleNamespace(compute_capability=(8, 0))
-    grid, row = typeof(pl.load_table(folder / "page.npz").grid), types.float64[::1]
-    scalars = [getattr(kernels, name) for name in NAMES[:-1]] + [table_on_gpu._rupture_distance]
-    for scalar in scalars:
-        loop = table_on_gpu.loop_of(scalar).py_func
-        text, _ = cuda.compile(loop, types.void(grid, *6 * (row,)), device=False, abi="numba", cc=(8, 0))
-        (folder / f"{scalar.__name__.strip('_')}.ptx").write_text(text)
-    text, _ = cuda.compile(work_of.py_func, types.void(grid, *5 * (row,)), device=False, abi="numba", cc=(8, 0))
-    (folder / "own_kernel.ptx").write_text(text)
-    asking = (types.int64, *6 * (row,), types.float64, types.float64[:, ::1], typeof(room_for(1, ("force",))))
-    loop = solver_on_gpu.loop().py_func
-    text, _ = cuda.compile(loop, types.void(*asking, types.int8[::1], row), device=False, abi="numba", cc=(8, 0))
-    (folder / "solver.ptx").write_text(text)
+    major, minor = (int(number) for number in capability.split("."))
+    gpu_code.without_a_device((major, minor))
+    table = pl.load_table(folder / "page.npz")
+    row = types.float64[::1]
+    own = gpu_code.GpuKernel("a kernel of one's own", work_of, types.void(typeof(table.grid), *5 * (row,)), None, False)
+    found = {}
+    for name, loop, signature, registers, shares in [*gpu_code.gpu_kernels(table), own]:
+        text = gpu_code.ptx_of(loop, signature, (major, minor))
+        found[name] = {"ptx": text, "shares": shares}
+        if gpu_code.assembler():
+            found[name] |= gpu_code.assembled(text, f"sm_{major}{minor}", registers)._asdict()
+    (folder / f"code.{capability}.json").write_text(json.dumps(found))
 
+
+TASKS = {"simulate": simulate, "share": share, "solve": solve, "page": run_page, "compile": compile_all}
 
 if __name__ == "__main__":
-    {"simulate": simulate, "solve": solve, "page": run_page, "compile": compile_to_ptx}[sys.argv[1]](Path(sys.argv[2]))
+    TASKS[sys.argv[1]](Path(sys.argv[2]), *sys.argv[3:])

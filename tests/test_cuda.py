@@ -1,7 +1,9 @@
 """Tables on a GPU: the scalar kernels in Numba's simulator against those of the processor, and compiled for a GPU."""
 
+import json
 import math
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -11,12 +13,16 @@ import pytest
 
 import pendular as pl
 from on_cuda import GAMMA, NAMES, PAGE_ASKS, kernel_arguments
+from pendular.ground.compile import compiled
 from pendular.table import kernels
+from pendular.table.polynomial import CELL, LANES, RUPTURE_CELL, by_halves, in_three, in_two
 
 SCRIPT = Path(__file__).parent / "on_cuda.py"
 SIMULATOR = {"NUMBA_ENABLE_CUDASIM": "1", "NUMBA_DISABLE_JIT": "1"}
 SEED = 20261123
 COUNT = 48
+SHARED = 24
+MOST_SPILLS = 32  # bytes that a kernel may write to the memory of a thread
 TABLES = {
     "suction": {"contact_angle": 0.35, "reduced": (1.0, 1e4), "tolerance": 1e-7},
     "two_angles": {"contact_angle": (0.2, 0.9), "reduced": (10.0, 1e3), "tolerance": 1e-6},
@@ -30,10 +36,10 @@ TABLES = {
 }
 
 
-def run(task, folder, **environment):
+def run(task, folder, *more, **environment):
     """One task in a process of its own."""
     return subprocess.run(
-        [sys.executable, "-W", "error", str(SCRIPT), task, str(folder)],
+        [sys.executable, "-W", "error", str(SCRIPT), task, str(folder), *more],
         env=os.environ | {"PYTHONPATH": str(SCRIPT.parents[1])} | environment,
         check=False,
         capture_output=True,
@@ -91,6 +97,63 @@ def test_answers_are_those_of_the_processor(name, asked, simulated, folder):
     assert np.isnan(found[7:11]).all()
 
 
+@pytest.fixture(scope="module")
+def shared(folder):
+    """Contacts, no whole number of warps, half in cells of their own and half all in one; and their answers."""
+    asked = {}
+    for name in TABLES:
+        arguments = np.array(list(np.load(folder / f"{name}.contacts.npz").values()))
+        table = pl.load_table(folder / f"{name}.npz")
+        asked[name, "apart"] = arguments[:, :SHARED]
+        one = arguments[:, 20]
+        asked[name, "alike"] = np.repeat(one[:, None], SHARED, axis=1)
+        asked[name, "alike"][0] = table.rupture_distance(*one[1:], GAMMA) * np.linspace(0.5, 0.51, SHARED)
+        np.savez(folder / f"{name}.shared.npz", arguments=np.hstack([asked[name, "apart"], asked[name, "alike"]]))
+    done = run("share", folder, **SIMULATOR)
+    assert done.returncode == 0, done.stderr
+    found = {name: dict(np.load(folder / f"{name}.by_warps.npz")) for name in TABLES}
+    return asked, found
+
+
+@pytest.mark.parametrize("asked", NAMES)
+@pytest.mark.parametrize("name", TABLES)
+def test_threads_that_share_contacts_answer_as_one_does(name, asked, shared, folder):
+    grid = pl.load_table(folder / f"{name}.npz").grid
+    rows = np.hstack([shared[0][name, kind] for kind in ("apart", "alike")]).T.tolist()
+    one = getattr(kernels, asked)
+    expected = [one(grid, *kernel_arguments(asked, (*row, GAMMA))) for row in rows]
+    np.testing.assert_array_equal(shared[1][name][asked], expected)
+    assert np.isfinite(expected[:SHARED]).sum() > SHARED / 3
+    assert np.isfinite(expected[SHARED:]).all()
+
+
+def test_lanes_are_read_by_pairs_as_they_were_packed(folder):
+    """The instructions that a GPU runs, made for this processor."""
+    packed_lanes = pytest.importorskip("pendular.table.packed")
+    numba = pytest.importorskip("numba")
+    grid = pl.load_table(folder / "two_angles.npz").grid
+    packed = packed_lanes.pack(grid)
+    print(f"seed {SEED}")
+    random = np.random.default_rng(SEED)
+
+    @numba.njit(error_model="numpy")
+    def lane_of_force(coefficients, start, x, y):
+        return packed_lanes.force_lane(packed_lanes.force_rows(coefficients, start), x, y)
+
+    @numba.njit(error_model="numpy")
+    def lane_of_rupture(coefficients, start, y):
+        return packed_lanes.rupture_lane(packed_lanes.rupture_rows(coefficients, start), y)
+
+    for cell in random.integers(0, grid.rupture.size // RUPTURE_CELL, 20).tolist():
+        x, y, t = random.uniform(-1.0, 1.0, 3).tolist()
+        lanes = tuple(lane_of_force(packed.force, cell * CELL + 2 * lane, x, y) for lane in range(LANES))
+        expected = compiled(in_three)(grid.force, cell * CELL, x, y, t)
+        assert compiled(by_halves)(lanes, t) == pytest.approx(expected, rel=1e-14)
+        lanes = tuple(lane_of_rupture(packed.rupture, cell * RUPTURE_CELL + 2 * lane, y) for lane in range(LANES))
+        expected = compiled(in_two)(grid.rupture, cell * RUPTURE_CELL, x, y)
+        assert compiled(by_halves)(lanes, x) == pytest.approx(expected, rel=1e-14)
+
+
 @pytest.mark.parametrize("name", TABLES)
 def test_a_kernel_of_ones_own_may_ask(name, simulated):
     answers = simulated[name]
@@ -137,24 +200,43 @@ def test_the_solver_is_that_of_the_processor(tmp_path):
 
 
 @pytest.mark.needs("cuda")
-def test_a_device_gives_what_the_processor_does(folder):
-    done = run("simulate", folder)
+def test_a_device_gives_what_the_processor_does(folder, tmp_path):
+    there = tmp_path / "there"
+    shutil.copytree(folder, there)
+    done = run("simulate", there)
     if "CUDA_ERROR" in done.stderr or "CudaSupportError" in done.stderr:
         pytest.skip("no GPU is here")
     assert done.returncode == 0, done.stderr
+    for name in TABLES:
+        grid = pl.load_table(folder / f"{name}.npz").grid
+        rows = np.column_stack(list(np.load(folder / f"{name}.contacts.npz").values())).tolist()
+        for asked, found in np.load(there / f"{name}.answers.npz").items():
+            if asked in NAMES:
+                expected = [getattr(kernels, asked)(grid, *kernel_arguments(asked, (*row, GAMMA))) for row in rows]
+                np.testing.assert_allclose(found, expected, rtol=1e-12)
 
 
 @pytest.mark.needs("cuda")
-def test_the_kernels_compile_for_a_gpu(folder):
-    done = run("compile", folder, NUMBA_FORCE_CUDA_CC="8.0")
+@pytest.mark.parametrize(
+    "capability", ["9.0", *(pytest.param(other, marks=pytest.mark.long) for other in ("7.0", "7.5", "8.0", "8.9"))]
+)
+def test_all_kernels_compile_for_a_gpu(capability, folder):
+    done = run("compile", folder, capability)
     if "is not installed" in done.stderr:
         pytest.skip(done.stderr.strip())
+    if "ERROR_INVALID_OPTION" in done.stderr and capability == "7.0":
+        pytest.skip("NVVM of CUDA 13 does not know that GPU")
     assert done.returncode == 0, done.stderr
-    for name in (*NAMES, "own_kernel", "solver"):
-        text = (folder / f"{name}.ptx").read_text()
-        assert ".target sm_80" in text
-        assert text.count(".entry") == 1
-        assert ".extern .func" not in text, "calls what no GPU has"
+    target = f".target sm_{capability.replace('.', '')}"
+    for name, code in json.loads((folder / f"code.{capability}.json").read_text()).items():
+        assert target in code["ptx"]
+        assert code["ptx"].count(".entry") == 1
+        assert ".extern .func" not in code["ptx"], "calls what no GPU has"
+        print(name, {key: value for key, value in code.items() if key != "ptx"})
+        if "spilled" in code:  # the assembler is here
+            assert code["spilled"] <= MOST_SPILLS, name
+        if "spilled" in code and code["shares"]:
+            assert code["wide_loads"] >= (RUPTURE_CELL if "rupture" in name else CELL) / LANES / 2, name
 
 
 def test_nothing_loads_it_unasked():

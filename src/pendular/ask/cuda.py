@@ -9,11 +9,6 @@ from functools import cache
 from typing import Any, Literal
 
 import numpy as np
-
-try:
-    from numba import cuda, types
-except ModuleNotFoundError as absent:
-    raise ModuleNotFoundError("pendular.ask.cuda needs Numba, which is not installed; pip install numba") from absent
 from numpy.typing import NDArray
 
 from ..exact import batch
@@ -22,8 +17,8 @@ from ..exact.equations import SUCTION, VOLUME
 from ..exact.state import State
 from ..ground.check import one_of, scalar
 from ..ground.compile import compiled, kernel
+from ..ground.device import THREADS, Operand, blocks_for, cuda, flat, on_host, read, result_for, returned, types
 from ..ground.rows import element
-from ..table.cuda import THREADS, Operand, is_on_device, operands_on_device, result_on_device, returned
 from .face import bridge
 from .fields import Room, room_for
 from .liquid import Liquid
@@ -53,8 +48,8 @@ def loop() -> Any:
         control: int, separation: Any, held: Any, radius1: Any, radius2: Any, angle1: Any, angle2: Any,
         tension: float, near: Any, room: Room, statuses: Any, out: Any,
     ) -> None:  # fmt: skip
-        i = cuda.grid(1)  # type: ignore[attr-defined]
-        row = cuda.local.array(_FIELDS, types.float64)  # type: ignore[attr-defined]
+        i = cuda.grid(1)
+        row = cuda.local.array(_FIELDS, types.float64)
         if i < statuses.size:
             answer(
                 batch.FORCE_ALONE, control, separation, held, radius1, radius2, angle1, angle2, tension, near, room,
@@ -70,7 +65,7 @@ def loop() -> Any:
 
 @cuda.jit
 def _put(places: Any, values: Any, out: Any) -> None:
-    i = cuda.grid(1)  # type: ignore[attr-defined]
+    i = cuda.grid(1)
     if i < places.size:
         out[places[i]] = values[i]
 
@@ -122,30 +117,27 @@ def bridge_force(
     one_of("held", held, ("suction", "volume"))
     tension = scalar("surface_tension", surface_tension, "N/m")
     arguments = (separation, control, radius1, radius2, contact_angle1, contact_angle2)
-    shape, operands = operands_on_device(_UNITS, arguments)
-    result = result_on_device(out, shape)
+    work = read(_UNITS, arguments)
+    result = result_for(out, work)
     if result.size:
-        flat = result.reshape(result.size)
-        _fill(VOLUME if held == "volume" else SUCTION, operands, tension, flat)
-    return returned(result, out, shape, any(map(is_on_device, arguments)))
+        _fill(VOLUME if held == "volume" else SUCTION, flat(work), tension, result.reshape(result.size), work.stream)
+    return returned(result, out, work)
 
 
-def _fill(control: int, operands: list[Any], tension: float, out: Any) -> None:
+def _fill(control: int, operands: list[Any], tension: float, out: Any, stream: Any) -> None:
     """Fill forces on the device, and let the processor answer what was left open."""
-    room = Room(*(cuda.to_device(part) for part in room_for(out.size, ("force",))))
-    statuses, near = cuda.device_array(out.size, np.int8), cuda.to_device(np.empty((4, 0)))
-    loop()[_blocks(out.size), THREADS](control, *operands, tension, near, room, statuses, out)
-    left = np.flatnonzero(statuses.copy_to_host() == OPEN)
+    room = Room(*(cuda.to_device(part, stream=stream) for part in room_for(out.size, ("force",))))
+    statuses = cuda.device_array(out.size, np.int8, stream=stream)
+    near = cuda.to_device(np.empty((4, 0)), stream=stream)
+    loop()[blocks_for(out.size), THREADS, stream](control, *operands, tension, near, room, statuses, out)
+    left = np.flatnonzero(on_host(statuses, stream) == OPEN)
     if left.size:
-        gap, held, *solids = (_taken(operand.copy_to_host(), left) for operand in operands)
+        gap, held, *solids = (_taken(on_host(operand, stream), left) for operand in operands)
         pair, liquid = Pair((solids[0], solids[1]), (solids[2], solids[3])), Liquid(surface_tension=tension)
         suction, volume = (None, held) if control == VOLUME else (held, None)
         force = bridge(pair, gap, suction=suction, volume=volume, liquid=liquid, fields=("force",)).force
-        _put[_blocks(left.size), THREADS](cuda.to_device(left), cuda.to_device(np.asarray(force)), out)
-
-
-def _blocks(rows: int) -> int:
-    return -(-rows // THREADS)
+        places, values = (cuda.to_device(each, stream=stream) for each in (left, np.asarray(force)))
+        _put[blocks_for(left.size), THREADS, stream](places, values, out)
 
 
 def _taken(operand: NDArray[np.float64], rows: NDArray[np.intp]) -> NDArray[np.float64]:

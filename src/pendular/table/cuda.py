@@ -4,7 +4,6 @@ Numba compiles the scalar kernels of ``pendular.table.kernels`` for the GPU as t
 ``@cuda.jit`` that calls them.
 """
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
@@ -13,29 +12,26 @@ from typing import Any, Literal
 
 import numpy as np
 
-try:
-    from numba import config, cuda
-except ModuleNotFoundError as absent:
-    raise ModuleNotFoundError("pendular.table.cuda needs Numba, which is not installed; pip install numba") from absent
-from numpy.typing import ArrayLike
-
-from ..ground.check import numbers, result_array
-from ..ground.compile import compiled, kernel, let_numba_call_kernels
+from ..ground.compile import compiled, kernel
+from ..ground.device import (
+    IS_SIMULATED,
+    LEAN,
+    THREADS,
+    Operand,
+    blocks_for,
+    cuda,
+    flat,
+    read,
+    result_for,
+    returned,
+)  # fmt: skip
 from ..ground.rows import element
-from . import kernels
+from . import kernels, warps
 from .kernels import Grid
+from .packed import Packed, pack
 from .table import Table, operands_of
 
 __all__ = ["DeviceTable", "to_device"]
-
-if not config.ENABLE_CUDASIM:  # type: ignore[attr-defined]
-    from numba.cuda.descriptor import cuda_target
-
-    let_numba_call_kernels(cuda_target.typing_context)  # in kernels under ``@cuda.jit``
-
-Operand = ArrayLike | Any  # numbers, or any array on the device
-
-THREADS = 128  # in a block
 
 
 @kernel
@@ -48,14 +44,14 @@ def _rupture_distance(
 
 @cache
 def loop_of(scalar: Callable[..., float]) -> Any:
-    """A scalar kernel over contacts, one for each thread of the GPU."""
+    """A scalar kernel over contacts, one for each thread of the GPU, which works alone."""
     one, at = compiled(scalar), compiled(element)
 
     @cuda.jit
     def loop(
         grid: Grid, separation: Any, control: Any, radius1: Any, radius2: Any, surface_tension: Any, out: Any
     ) -> None:
-        i = cuda.grid(1)  # type: ignore[attr-defined]
+        i = cuda.grid(1)
         if i < out.size:
             out[i] = one(
                 grid,
@@ -69,14 +65,50 @@ def loop_of(scalar: Callable[..., float]) -> Any:
     return loop
 
 
+@cache
+def loop_by_warps(shared: Any) -> Any:
+    """A function of `warps` over contacts, one for each thread; threads beyond the last keep their warp whole."""
+    at = compiled(element)
+
+    @cuda.jit(**LEAN)
+    def loop(
+        grid: Grid, packed: Packed, separation: Any, control: Any, radius1: Any, radius2: Any, surface_tension: Any,
+        out: Any,
+    ) -> None:  # fmt: skip
+        i = cuda.grid(1)
+        k = min(i, out.size - 1)
+        found = shared(
+            grid, packed, at(separation, k), at(control, k), at(radius1, k), at(radius2, k), at(surface_tension, k)
+        )
+        if i < out.size:
+            out[i] = found
+
+    return loop
+
+
+def has_warps() -> bool:
+    """Whether threads can hand on numbers to one another, which those of Numba's simulator cannot."""
+    return hasattr(cuda, "shfl_sync")
+
+
+SHARED = {
+    kernels.force: warps.force,
+    kernels.liquid: warps.liquid,
+    kernels.stiffness: warps.stiffness,
+    kernels.energy: warps.energy,
+    _rupture_distance: warps.rupture_distance,
+}
+
+
 @dataclass(frozen=True, eq=False)
 class DeviceTable:
     """A table on the GPU, made by :func:`to_device`.
 
-    Each method takes numbers, NumPy arrays, or arrays on the device, of Numba, CuPy, PyTorch or any other library that
-    has ``__cuda_array_interface__``: float64, contiguous, and of one shape or of one element for all contacts. If one
-    of them is on the device the answer is left there, as an array of Numba, and the call does not wait for it; else it
-    is a NumPy array. A pair or a control outside the range of the table gives NaN.
+    Each method takes numbers, NumPy arrays, or arrays on the device, of Numba, CuPy, PyTorch, JAX or any other library
+    that has DLPack or ``__cuda_array_interface__``: float64, contiguous, and of one shape or of one element for all
+    contacts. They are read where they lie. If one of them is on the device the answer is left there, as an array of
+    the library of the first, worked out on its current stream, and the call does not wait for it; else it is a NumPy
+    array. A pair or a control outside the range of the table gives NaN.
 
     Parameters
     ----------
@@ -84,10 +116,13 @@ class DeviceTable:
         What is held constant.
     grid : Grid
         The cells, on the device: the first argument of the scalar kernels in ``pendular.table.kernels``.
+    packed : Packed
+        Their coefficients once more, as threads that share a contact read them.
     """
 
     control: Literal["suction", "volume"]
     grid: Grid
+    packed: Packed
 
     def force(
         self,
@@ -172,70 +207,19 @@ class DeviceTable:
         return self._ask(_rupture_distance, out, 0.0, control, radius1, radius2, surface_tension)
 
     def _ask(self, scalar: Callable[..., float], out: Any, *arguments: Operand) -> Any:
-        shape, operands = operands_on_device(operands_of(self.control), arguments)
-        result = result_on_device(out, shape)
+        work = read(operands_of(self.control), arguments)
+        result = result_for(out, work)
         if result.size > 0:
-            blocks = -(-result.size // THREADS)
-            loop_of(scalar)[blocks, THREADS](self.grid, *operands, result.reshape(result.size))
-        return returned(result, out, shape, any(map(is_on_device, arguments)))
+            self._fill(scalar, flat(work), result.reshape(result.size), work.stream)
+        return returned(result, out, work)
 
-
-def is_on_device(value: object) -> bool:
-    """Whether an object is an array on the device; the simulator's have the first attribute only."""
-    return hasattr(value, "__cuda_ndarray__") or hasattr(value, "__cuda_array_interface__")
-
-
-def _on_device(name: str, value: Any) -> Any:
-    """An array on the device as Numba's."""
-    array = value if hasattr(value, "__cuda_ndarray__") else cuda.as_cuda_array(value)  # type: ignore[no-untyped-call]
-    if array.dtype != np.float64 or not array.is_c_contiguous():
-        raise ValueError(f"{name}: is not a contiguous float64 array on the device")
-    return array
-
-
-def _read(name: str, value: Operand, unit: str) -> Any:
-    """An operand as an array, where it lies."""
-    return _on_device(name, value) if is_on_device(value) else numbers(name, value, unit)
-
-
-def _flat(name: str, operand: Any, shape: tuple[int, ...]) -> Any:
-    """An operand on the device, in one row of one element or of as many as there are contacts."""
-    if not is_on_device(operand):
-        whole = operand if operand.size == 1 else np.broadcast_to(operand, shape)
-        return cuda.to_device(np.ascontiguousarray(whole).reshape(-1))
-    if operand.size != 1 and operand.shape != shape:
-        raise ValueError(f"{name}: an array on the device of shape {operand.shape} is not repeated to {shape}")
-    return operand.reshape(operand.size)
-
-
-def operands_on_device(units: dict[str, str], arguments: tuple[Operand, ...]) -> tuple[tuple[int, ...], list[Any]]:
-    """Shape of the answer, and what is named with its units in rows on the device."""
-    read = [_read(name, value, units[name]) for name, value in zip(units, arguments, strict=True)]
-    shape = np.broadcast_shapes(*(operand.shape for operand in read))
-    return shape, [_flat(name, operand, shape) for name, operand in zip(units, read, strict=True)]
-
-
-def result_on_device(out: Any, shape: tuple[int, ...]) -> Any:
-    """Room for an answer on the device: what is given for it, if that lies there."""
-    if is_on_device(out):
-        result = _on_device("out", out)
-        if result.shape != shape:
-            raise ValueError(f"out: is not of shape {shape}")
-        return result
-    if out is not None:
-        result_array(out, shape)
-    return cuda.device_array(math.prod(shape))
-
-
-def returned(result: Any, out: Any, shape: tuple[int, ...], stays: bool) -> Any:
-    """An answer where it is wanted."""
-    if out is None and stays:
-        return result.reshape(shape or 1)
-    if out is None:
-        return result.copy_to_host().reshape(shape)[()]
-    if not is_on_device(out):
-        result.copy_to_host(out.reshape(-1))
-    return out
+    def _fill(self, scalar: Callable[..., float], operands: list[Any], result: Any, stream: Any) -> None:
+        """Launch a question about operands in rows."""
+        launch = blocks_for(result.size), THREADS, stream
+        if has_warps():
+            loop_by_warps(SHARED[scalar])[launch](self.grid, self.packed, *operands, result)
+        else:
+            loop_of(scalar)[launch](self.grid, *operands, result)
 
 
 def to_device(table: Table) -> DeviceTable:
@@ -255,9 +239,10 @@ def to_device(table: Table) -> DeviceTable:
     ModuleNotFoundError
         If numba-cuda is not installed.
     """
-    if find_spec("numba_cuda") is None and not config.ENABLE_CUDASIM:  # type: ignore[attr-defined]
+    if find_spec("numba_cuda") is None and not IS_SIMULATED:
         raise ModuleNotFoundError("numba-cuda is not installed; pip install 'pendular[cuda]'")
     arrays: dict[str, Any] = {
         name: cuda.to_device(value) for name, value in table.grid._asdict().items() if isinstance(value, np.ndarray)
     }
-    return DeviceTable(table.control, table.grid._replace(**arrays))
+    packed = Packed(*map(cuda.to_device, pack(table.grid)))
+    return DeviceTable(table.control, table.grid._replace(**arrays), packed)

@@ -34,7 +34,8 @@ _MANTISSA = 52
 _MANTISSA_BITS, _BITS_OF_ONE = (1 << _MANTISSA) - 1, 1023 << _MANTISSA
 # Eight points of Gauss and Legendre are exact for the product of q and a polynomial of the seventh degree, and nearly
 # so where the rate of D in q is a fraction.
-_ABSCISSAE, _WEIGHTS = (tuple(each.tolist()) for each in np.polynomial.legendre.leggauss(8))
+POINTS = 8
+_ABSCISSAE, _WEIGHTS = (tuple(each.tolist()) for each in np.polynomial.legendre.leggauss(POINTS))
 _STRETCH = STRETCH * math.sqrt(2.0 / math.pi)  # d over R̄√c*
 # About the third of the high half of the bits of a number are those of its cube root.
 _THIRD, _CUBE_ROOT_BITS = 0x55555556, 0x2A9F789300000000
@@ -269,13 +270,19 @@ def liquid(
 
 
 @kernel
+def t_rate(grid: Grid, row: int, cell: int, q: float, separation: float, rupture: float, bend: float) -> float:
+    """Rate of the last coordinate of a cell in the separation: dq/dD = -(1 + D_c/d)/(2 q D_c (1 + D/d)²)."""
+    low, high = ends_of(grid, row, cell)
+    stretched = 1.0 + bend * (separation / rupture)
+    q_rate = -0.5 * (1.0 + bend) / (q * rupture * stretched * stretched)
+    return 2.0 / (high - low) * grid.lines[row, Q1] * q_rate
+
+
+@kernel
 def stiffness(
     grid: Grid, separation: float, control: float, radius1: float, radius2: float, surface_tension: float
 ) -> float:
-    """Rate dF/dD with the control held, [N/m]; 0 in an overlap, where the force is that at contact; NaN without bridge.
-
-    dq/dD = -(1 + D_c/d)/(2 q D_c (1 + D/d)²).
-    """
+    """Rate dF/dD with the control held, [N/m]: 0 in an overlap, as the force is that at contact; NaN without bridge."""
     pair, place, rupture, bend = find(grid, control, radius1, radius2, surface_tension)
     if not gap_of(separation) < rupture:
         return math.nan
@@ -283,33 +290,56 @@ def stiffness(
         return 0.0
     q = q_of(separation, rupture, bend)
     cell, t = cell_of(grid, place, q)
-    low, high = ends_of(grid, place.row, cell)
-    stretched = 1.0 + bend * (separation / rupture)
-    q_rate = -0.5 * (1.0 + bend) / (q * rupture * stretched * stretched)
-    t_rate = 2.0 / (high - low) * grid.lines[place.row, Q1] * q_rate
-    rate = rate_in_three(grid.force, cell * CELL, place.x, place.y, t) * t_rate
+    rate = rate_in_three(grid.force, cell * CELL, place.x, place.y, t) * t_rate(
+        grid, place.row, cell, q, separation, rupture, bend
+    )
     return 2.0 * math.pi * surface_tension * pair.radius * rate
+
+
+class Pieces(NamedTuple):
+    """Cells between rupture and a place on the branch, in their order."""
+
+    first: int  # at rupture
+    last: int
+    step: int  # from one to the next: cells count up or down with q
+
+
+@kernel
+def pieces_to(grid: Grid, place: Place, end: float) -> Pieces:
+    """Cells from rupture to an end in q."""
+    at_rupture, _ = cell_of(grid, place, 0.0)
+    last, _ = cell_of(grid, place, end)
+    return Pieces(at_rupture, last, 1 if grid.lines[place.row, Q1] > 0.0 else -1)
+
+
+@kernel
+def end_of_piece(grid: Grid, row: int, pieces: Pieces, cell: int, end: float) -> float:
+    """Where a piece ends in q."""
+    ends = ends_of(grid, row, cell)
+    far = ends[1] if pieces.step > 0 else ends[0]
+    return end if cell == pieces.last else (far - grid.lines[row, Q0]) / grid.lines[row, Q1]
+
+
+@kernel
+def work_point(grid: Grid, row: int, bend: float, low: float, high: float, point: int) -> tuple[float, float]:
+    """Coordinate in a cell and weight of a point of the quadrature of ∫ λ* q (1 + b)/(1 + b q²)² dq, with b = D_c/d."""
+    half = 0.5 * (high - low)
+    q = 0.5 * (low + high) + half * _ABSCISSAE[point]
+    _, t = locate(grid.lines[row, Q0] + grid.lines[row, Q1] * q, grid.cuts[row, Q_SHIFT], grid.cuts[row, Q_FIRST])
+    bent = 1.0 + bend * q * q
+    return t, half * _WEIGHTS[point] * q * (1.0 + bend) / (bent * bent)
 
 
 @kernel
 def _integral(grid: Grid, place: Place, bend: float, end: float) -> float:
-    """∫ λ* q (1 + b)/(1 + b q²)² dq from rupture to an end, piece by piece, with b = D_c/d."""
-    line, cut = grid.lines[place.row], grid.cuts[place.row]
-    at_rupture, _ = cell_of(grid, place, 0.0)
-    last, _ = cell_of(grid, place, end)
-    step = 1 if line[Q1] > 0.0 else -1
+    """∫ λ* q (1 + b)/(1 + b q²)² dq from rupture to an end, piece by piece."""
+    pieces = pieces_to(grid, place, end)
     total, low = 0.0, 0.0
-    for i in range(abs(last - at_rupture) + 1):
-        cell = at_rupture + step * i
-        ends = ends_of(grid, place.row, cell)
-        far = ends[1] if step > 0 else ends[0]
-        high = end if cell == last else (far - line[Q0]) / line[Q1]
-        half = 0.5 * (high - low)
-        for j in range(len(_ABSCISSAE)):
-            q = 0.5 * (low + high) + half * _ABSCISSAE[j]
-            _, t = locate(line[Q0] + line[Q1] * q, cut[Q_SHIFT], cut[Q_FIRST])
-            bent = 1.0 + bend * q * q
-            weight = half * _WEIGHTS[j] * q * (1.0 + bend) / (bent * bent)
+    for i in range(abs(pieces.last - pieces.first) + 1):
+        cell = pieces.first + pieces.step * i
+        high = end_of_piece(grid, place.row, pieces, cell, end)
+        for point in range(POINTS):
+            t, weight = work_point(grid, place.row, bend, low, high, point)
             total += weight * in_three(grid.force, cell * CELL, place.x, place.y, t)
         low = high
     return total

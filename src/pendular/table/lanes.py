@@ -30,7 +30,8 @@ def _shuffle(builder: Any, vector: Any, lanes: list[int]) -> Any:
     return builder.shuffle_vector(vector, vector, ir.Constant(kind, lanes))
 
 
-def _multiply_add(builder: Any, a: Any, b: Any, c: Any) -> Any:
+def multiply_add(builder: Any, a: Any, b: Any, c: Any) -> Any:
+    """Instruction a b + c, rounded once where the machine can."""
     kind = a.type
     suffix = f"v{kind.count}f64" if isinstance(kind, ir.VectorType) else "f64"
     function = cgutils.get_or_insert_function(  # type: ignore[no-untyped-call]
@@ -47,9 +48,9 @@ def _lanes(builder: Any, rows: Any, x: Any, y: Any, terms: tuple[int, ...]) -> A
         of_y = None
         for _ in range(terms_y):
             row = builder.load(builder.gep(rows, [ir.Constant(ir.IntType(64), number)]), align=8)
-            of_y = row if of_y is None else _multiply_add(builder, of_y, ys, row)
+            of_y = row if of_y is None else multiply_add(builder, of_y, ys, row)
             number += 1
-        total = of_y if total is None else _multiply_add(builder, total, xs, of_y)
+        total = of_y if total is None else multiply_add(builder, total, xs, of_y)
     return total
 
 
@@ -61,7 +62,7 @@ def _sum(builder: Any, lanes: Any, t: Any) -> Any:
     for power in reversed(powers):
         half = lanes.type.count // 2
         low, high = (_shuffle(builder, lanes, list(range(start, start + half))) for start in (0, half))
-        lanes = _multiply_add(builder, high, _splat(builder, power, half), low)
+        lanes = multiply_add(builder, high, _splat(builder, power, half), low)
     return builder.extract_element(lanes, ir.Constant(ir.IntType(32), 0))
 
 
