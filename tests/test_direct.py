@@ -120,7 +120,7 @@ def test_the_straight_way_finds_nearly_all_bridges_and_no_other(control):
     rows = rows[statuses == batch.FOUND]
     rows[:, 0] = np.random.default_rng(SEED).uniform(0.0, 0.98, len(rows)) * ends[statuses == batch.FOUND, 0]
     states, found = np.empty((len(rows), len(State._fields))), np.empty(len(rows), np.int8)
-    batch.over_rows(batch.stable_range, len(rows), 1024, batch.ALL, control, rows, states, found)
+    batch.over_rows(batch.stable_range, len(rows), 1024, batch.ALL, control, rows, states, found, batch.ABREAST)
     rest, by_rest = np.empty_like(states), np.empty_like(found)
     batch.over_rows(batch.end_range, len(rows), 1024, batch.STABLE, batch.BRANCH_ENDS, control, rows, rest, by_rest)
     is_found = found == batch.FOUND

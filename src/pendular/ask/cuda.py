@@ -27,7 +27,7 @@ from .pair import Pair
 
 __all__ = ["bridge_force"]
 
-_FIELDS = len(State._fields)
+_FIELDS, _ABREAST = len(State._fields), batch.ROOM_ABREAST
 _UNITS = {
     "separation": "m", "control": "", "radius1": "m", "radius2": "m", "contact_angle1": "rad", "contact_angle2": "rad",
 }  # fmt: skip
@@ -50,10 +50,11 @@ def loop() -> Any:
     ) -> None:  # fmt: skip
         i = cuda.grid(1)
         row = cuda.local.array(_FIELDS, types.float64)
+        abreast = cuda.local.array(_ABREAST, types.float64)
         if i < statuses.size:
             answer(
                 batch.FORCE_ALONE, control, separation, held, radius1, radius2, angle1, angle2, tension, near, room,
-                statuses, row, i, i + 1,
+                statuses, row, abreast, i, i + 1,
             )  # fmt: skip
             is_pair = is_angle(at(angle1, i)) and is_angle(at(angle2, i))
             if not is_pair:

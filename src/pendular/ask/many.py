@@ -14,6 +14,8 @@ from ..exact import batch
 from ..exact.batch import FOUND, OPEN
 from ..exact.equations import SUCTION, VOLUME
 from ..exact.state import State, state_in
+from ..ground.compile import kernel
+from ..ground.lanes import lanes
 from ..ground.rows import Own, element, entry, over_rows
 from .domain import is_in_domain, length_unit, reduced
 from .fields import TO_GO_ON, Room, asks_for_force_alone, bridge_of, fill, leave_empty, restore_rows, room_for
@@ -26,6 +28,7 @@ Floats = NDArray[np.float64]
 Statuses = NDArray[np.int8]
 
 _CHUNK = 4096  # bridges that one thread takes at a time: some milliseconds
+_OWN = Own(partial(np.empty, len(State._fields))), batch.ABREAST  # of each thread
 BAD = 3  # status of a row that is no question
 
 
@@ -44,6 +47,7 @@ def fields_range(
     room: Room,
     statuses: Statuses,
     row: Floats,
+    abreast: Floats,
     start: int,
     stop: int,
 ) -> None:
@@ -54,29 +58,51 @@ def fields_range(
     """
     known1 = known2 = math.nan
     cosine1 = sine1 = cosine2 = sine2 = math.nan
-    for i in range(start, stop):
-        gap, held = element(separation, i), element(values, i)
-        first, second = element(radius1, i), element(radius2, i)
-        one, other = element(angle1, i), element(angle2, i)
-        if one != known1:
-            known1, cosine1, sine1 = one, math.cos(one), math.sin(one)
-        if other != known2:
-            known2, cosine2, sine2 = other, math.cos(other), math.sin(other)
-        if not is_in_domain(control, gap, held, first, second, tension):
-            statuses[i] = BAD
-            continue
-        unit = length_unit(control, held, first, second)
-        solids = batch.Solid(unit / first, one, cosine1, sine1), batch.Solid(unit / second, other, cosine2, sine2)
-        begin = batch.NOWHERE
-        if near.shape[1] > 0 and near[0, i] > 0.0:
-            begin = batch.arc_through(near[0, i] / unit, near[1, i], near[2, i] / unit, near[3, i] * unit / tension)
-        kept = batch.Held(solids[0], solids[1], control, reduced(control, held, unit, tension))
-        status = batch.straight_status(wanted, begin, gap / unit, kept, row)
-        statuses[i] = status
-        if status == FOUND:
-            fill(room, i, state_in(row), control, gap, held, unit, tension, cosine1, cosine2)
-        else:
-            leave_empty(room, i, status)
+    width, is_near = lanes(), near.shape[1] > 0
+    for begin in range(start, stop, width):
+        count = min(width, stop - begin)
+        for lane in range(width):
+            i = begin + min(lane, count - 1)  # beyond the end the last one is asked again
+            gap, held = element(separation, i), element(values, i)
+            first, second = element(radius1, i), element(radius2, i)
+            one, other = element(angle1, i), element(angle2, i)
+            if one != known1:
+                known1, cosine1, sine1 = one, math.cos(one), math.sin(one)
+            if other != known2:
+                known2, cosine2, sine2 = other, math.cos(other), math.sin(other)
+            if not is_in_domain(control, gap, held, first, second, tension):
+                statuses[i] = BAD
+                batch.ask_nothing(abreast, lane, control)
+                continue
+            unit = length_unit(control, held, first, second)
+            one_solid, other_solid = (
+                batch.Solid(unit / first, one, cosine1, sine1),
+                batch.Solid(unit / second, other, cosine2, sine2),
+            )
+            kept = batch.Held(one_solid, other_solid, control, reduced(control, held, unit, tension))
+            arc = _arc_near(near, i, unit, tension)
+            statuses[i] = batch.ask_abreast(abreast, lane, arc, gap / unit, kept, is_near)
+        batch.answer_abreast(abreast, control, wanted, is_near)
+        for lane in range(count):
+            i = begin + lane
+            gap, held = element(separation, i), element(values, i)
+            unit = length_unit(control, held, element(radius1, i), element(radius2, i))
+            if statuses[i] == OPEN:
+                arc = _arc_near(near, i, unit, tension)
+                statuses[i] = batch.abreast_status(abreast, lane, wanted, arc, control, row)
+            if statuses[i] == FOUND:
+                cosines = batch.cosines_in_lane(abreast, lane)
+                fill(room, i, state_in(row), control, gap, held, unit, tension, cosines[0], cosines[1])
+            else:
+                leave_empty(room, i, statuses[i])
+
+
+@kernel
+def _arc_near(near: Floats, i: int, unit: float, tension: float) -> batch.Arc:
+    """The bridge to start from, if there is one."""
+    if near.shape[1] > 0 and near[0, i] > 0.0:
+        return batch.arc_through(near[0, i] / unit, near[1, i], near[2, i] / unit, near[3, i] * unit / tension)
+    return batch.NOWHERE
 
 
 def _plainly(room: Room, statuses: Statuses, *asking: Any) -> None:
@@ -128,7 +154,7 @@ def many_bridges(
         fields = (*fields, *TO_GO_ON)
     room, statuses = room_for(rows, fields), np.empty(rows, np.int8)
     tension = float(liquid.surface_tension)
-    asking = (wanted, held, *operands, tension, start, room, statuses, Own(partial(np.empty, len(State._fields))))
+    asking = (wanted, held, *operands, tension, start, room, statuses, *_OWN)
     over_rows(fields_range, rows, _CHUNK, *asking, plainly=partial(_plainly, room, statuses))
     if rows and statuses.max() == BAD:
         reduce(pair, control, liquid, separation)  # which says what is wrong

@@ -33,10 +33,15 @@ def dot(a: Four, b: Four) -> float:
 
 
 @kernel
+def largest_of(a: Four) -> float:
+    """Largest magnitude of the components; what is NaN may count for nothing."""
+    return max(max(abs(a[0]), abs(a[1])), max(abs(a[2]), abs(a[3])))
+
+
+@kernel
 def largest(a: Four) -> float:
     """Largest magnitude of the components; NaN if one of them is."""
-    size = max(max(abs(a[0]), abs(a[1])), max(abs(a[2]), abs(a[3])))
-    return size if a[0] + a[1] + a[2] + a[3] == a[0] + a[1] + a[2] + a[3] else math.nan
+    return largest_of(a) if a[0] + a[1] + a[2] + a[3] == a[0] + a[1] + a[2] + a[3] else math.nan
 
 
 @kernel

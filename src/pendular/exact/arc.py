@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..ground.compile import constants, kernel, summing_kernel
+from ..ground.lanes import choose
 from .algebra import Four
 from .equations import Held, System, system_of
 from .meridian import End, Row
@@ -21,18 +22,20 @@ from .quadrature import point_at
 
 Nodes = NDArray[np.float64]
 
-_X8, _W8 = map(constants, np.polynomial.legendre.leggauss(8))
-_X16, _W16 = map(constants, np.polynomial.legendre.leggauss(16))
-_X24, _W24 = map(constants, np.polynomial.legendre.leggauss(24))
-_X32, _W32 = map(constants, np.polynomial.legendre.leggauss(32))
-_X48, _W48 = map(constants, np.polynomial.legendre.leggauss(48))
-_X64, _W64 = map(constants, np.polynomial.legendre.leggauss(64))
-_X96, _W96 = map(constants, np.polynomial.legendre.leggauss(96))
+X8, W8 = map(constants, np.polynomial.legendre.leggauss(8))
+X16, W16 = map(constants, np.polynomial.legendre.leggauss(16))
+X24, W24 = map(constants, np.polynomial.legendre.leggauss(24))
+X32, W32 = map(constants, np.polynomial.legendre.leggauss(32))
+X48, W48 = map(constants, np.polynomial.legendre.leggauss(48))
+X64, W64 = map(constants, np.polynomial.legendre.leggauss(64))
+X96, W96 = map(constants, np.polynomial.legendre.leggauss(96))
 # Distance of the nearest singular point from the panel, over its half width, from which on so many nodes leave an
 # error of rounding, e = ρ^-2n with ρ = t + √(1 + t²); or one that a Newton step far from its end does not see.
 _FINE_8, _FINE_16, _FINE_24, _FINE_32, _FINE_48, _FINE_64, LEAST_ROOM = 6.1, 1.61, 1.0, 0.665, 0.435, 0.325, 0.213
 _COARSE_8, _COARSE_16, _COARSE_24 = 0.85, 0.42, 0.26
 _WIDEST_ETA = 2.6
+ROOM_FOR_24, ROOM_FOR_32 = 0.85, 0.6  # from which on so many leave one in the values, if not in the last rates
+HALF_A_TURN = 1.99  # η below which an arc makes less than half a turn
 _SMALL = 1e-4  # ω below which tan(ω/2)/(ω/2) is a series
 
 
@@ -79,7 +82,7 @@ def room_of(arc: Arc) -> float:
     imag = real * arc.slope
     c_real, c_imag = 1.0 + h * real, h * imag
     branch = abs(real * c_real + imag * c_imag) / (c_real * c_real + c_imag * c_imag)
-    return min(branch, 1.0 / abs(h)) if h != 0.0 else branch
+    return min(branch, 1.0 / max(abs(h), 1e-300))
 
 
 @kernel
@@ -89,26 +92,44 @@ def is_fit(arc: Arc) -> bool:
 
 
 @kernel
+def has_room(arc: Arc, least: float) -> bool:
+    """Whether an arc, which makes less than half a turn, has a room that its nodes ask for."""
+    return (arc.radius > 0.0) & (abs(arc.eta) < HALF_A_TURN) & (room_of(arc) > least)
+
+
+@kernel
+def chosen(condition: bool, arc: Arc, other: Arc) -> Arc:
+    """The first arc where a condition holds, else the other."""
+    return Arc(
+        choose(condition, arc.radius, other.radius),
+        choose(condition, arc.slope, other.slope),
+        choose(condition, arc.half_width, other.half_width),
+        choose(condition, arc.eta, other.eta),
+    )
+
+
+@kernel
 def _nodes_for(room: float, fine: bool) -> tuple[Nodes, Nodes]:
     if room > (_FINE_8 if fine else _COARSE_8):
-        return _X8, _W8
+        return X8, W8
     if room > (_FINE_16 if fine else _COARSE_16):
-        return _X16, _W16
+        return X16, W16
     if room > (_FINE_24 if fine else _COARSE_24):
-        return _X24, _W24
+        return X24, W24
     if room > _FINE_32 or not fine:
-        return _X32, _W32
+        return X32, W32
     if room > _FINE_48:
-        return _X48, _W48
+        return X48, W48
     if room > _FINE_64:
-        return _X64, _W64
-    return _X96, _W96
+        return X64, W64
+    return X96, W96
 
 
 @summing_kernel
 def _sum_length(real: float, imag: float, h: float, x: Nodes, weight: Nodes) -> Sums:
     """Length and its rates."""
-    length = by_real = by_imag = by_eta = 0.0
+    nothing = 0.0 * h  # in lanes, if that is in lanes
+    length = by_real = by_imag = by_eta = nothing
     for j in range(len(x)):
         zr, zi, ds, v, w, p = point_at(real, imag, h, x[j], weight[j])
         square = 1.0 / (zr * zr + zi * zi)
@@ -120,15 +141,16 @@ def _sum_length(real: float, imag: float, h: float, x: Nodes, weight: Nodes) -> 
         by_real -= sine * fi
         by_imag -= sine * fr
         by_eta -= v * p * (cosine * w + 0.5 * sine * (2.0 * real * fr - (2.0 * imag + v) * fi))
-    return Sums(length, by_real, by_imag, by_eta, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    return Sums(length, by_real, by_imag, by_eta, nothing, nothing, nothing, nothing, nothing, nothing)
 
 
 @summing_kernel
 def _sum_all(real: float, imag: float, h: float, x: Nodes, weight: Nodes) -> Sums:
     """All of them."""
-    length = by_real = by_imag = by_eta = 0.0
-    volume = v_real = v_imag = v_eta = 0.0
-    across = axial = 0.0
+    nothing = 0.0 * h  # in lanes, if that is in lanes
+    length = by_real = by_imag = by_eta = nothing
+    volume = v_real = v_imag = v_eta = nothing
+    across = axial = nothing
     for j in range(len(x)):
         zr, zi, ds, v, w, p = point_at(real, imag, h, x[j], weight[j])
         square = zr * zr + zi * zi
@@ -181,8 +203,14 @@ def values_of(arc: Arc) -> Values:
 @kernel
 def sums_of(arc: Arc, room: float, fine: bool, with_all: bool) -> Sums:
     """Sums over the panel, whose singular points are as far away as `room_of` tells."""
-    real, h = arc.radius / arc.half_width, 0.5 * arc.eta
     x, weight = _nodes_for(room, fine)
+    return sums_at(arc, x, weight, with_all)
+
+
+@kernel
+def sums_at(arc: Arc, x: Nodes, weight: Nodes, with_all: bool) -> Sums:
+    """Sums over so many nodes of the panel."""
+    real, h = arc.radius / arc.half_width, 0.5 * arc.eta
     if with_all:
         return _sum_all(real, real * arc.slope, h, x, weight)
     return _sum_length(real, real * arc.slope, h, x, weight)
@@ -245,6 +273,14 @@ def force_on(arc: Arc) -> float:
     """λ = a + (H/2) a² (1 + m²), the first integral of the Young-Laplace equation."""
     half = 0.5 * arc.eta / arc.half_width
     return arc.radius * (1.0 + half * arc.radius * (1.0 + arc.slope * arc.slope))
+
+
+@kernel
+def ratio_of(arc: Arc) -> float:
+    """|1 + Hζ|."""
+    turned = arc.eta / arc.half_width * arc.radius
+    real, imag = 1.0 + turned, turned * arc.slope
+    return math.sqrt(real * real + imag * imag)
 
 
 @kernel

@@ -13,7 +13,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..ground.compile import kernel
+from ..ground.lanes import lanes
 from ..ground.rows import Own, entry, over_rows
+from .abreast import (
+    ROOM_ABREAST,
+    answer_abreast,
+    ask_in_lane,
+    ask_nothing,
+    asked_in_lane,
+    cosines_in_lane,
+    found_in_lane,
+)
 from .algebra import Four
 from .answers import (
     FAILED,
@@ -33,7 +43,7 @@ from .answers import (
     store_end,
 )
 from .arc import NOWHERE, Arc, arc_through
-from .direct import ALL, FORCE_ALONE, FORCE_TO_GO_ON, straight_stored
+from .direct import ALL, FORCE_ALONE, FORCE_TO_GO_ON, all_stored, start_of, store_force, straight_stored
 from .equations import SUCTION, VOLUME, Held
 from .filling import MOST_FOUND, SEVERAL, Filling, store_filling
 from .follow import BRANCH_ENDS
@@ -48,6 +58,7 @@ from .summit import summit_stored
 from .tracing import trace
 
 __all__ = [
+    "ABREAST",
     "ALL",
     "FAILED",
     "FORCE_ALONE",
@@ -57,23 +68,30 @@ __all__ = [
     "NOWHERE",
     "NO_BRIDGE",
     "OPEN",
+    "ROOM_ABREAST",
     "RUPTURE",
     "SEVERAL",
     "STABLE",
     "UNSTABLE",
+    "Arc",
     "Held",
     "Solid",
+    "abreast_status",
     "answer",
+    "answer_abreast",
     "answer_filling",
     "answer_one",
     "answer_rest",
     "arc_through",
+    "ask_abreast",
+    "ask_nothing",
+    "cosines_in_lane",
     "draw",
     "lay",
-    "straight_status",
 ]
 
 Rows = NDArray[np.float64]
+Numbers = NDArray[np.float64]  # of one axis
 Statuses = NDArray[np.int8]
 
 OPEN = -1  # status of a row that a part of the solver leaves to the whole of it
@@ -85,6 +103,9 @@ _CHUNK = 1024  # bridges that one thread takes at a time: some milliseconds, aga
 
 def _room_for_nodes() -> Rows:
     return np.empty((MOST_NODES, 4))
+
+
+ABREAST = Own(partial(np.empty, ROOM_ABREAST))  # room of a thread for rows abreast
 
 
 def _room_for_found() -> Rows:
@@ -101,18 +122,51 @@ def task_of(row: Rows, control: int) -> Task:
 @kernel
 def _can_hold(task: Task) -> bool:
     """Whether a stable bridge is possible at all."""
-    return not (task.control == SUCTION and are_planes(task)) and not holds_nothing(task)
+    return _can_hold_between(held_of(task))
 
 
 @kernel
 def straight_status(wanted: int, near: Arc, separation: float, held: Held, row: Rows) -> int:
     """Store the stable bridge, or of it the force alone, to which the straight way leads, else OPEN."""
-    if held.control == SUCTION and held.first.curvature + held.second.curvature == 0.0:
-        return NO_BRIDGE
-    if holds_nothing_between(held):
+    if not _can_hold_between(held):
         return NO_BRIDGE
     symmetric = are_alike(held.first, held.second)
     return FOUND if straight_stored(near, separation, held, symmetric, wanted, row) else OPEN
+
+
+@kernel
+def _can_hold_between(held: Held) -> bool:
+    """Whether a stable bridge is possible at all."""
+    planes = held.control == SUCTION and held.first.curvature + held.second.curvature == 0.0
+    return not planes and not holds_nothing_between(held)
+
+
+@kernel
+def ask_abreast(room: Numbers, lane: int, near: Arc, separation: float, held: Held, is_near: bool) -> int:
+    """Ask for a stable bridge in a lane; where all start from an arc near by, one that has none does from its guess.
+
+    The status is OPEN until the lanes are answered.
+    """
+    if not _can_hold_between(held):
+        ask_nothing(room, lane, held.control)
+        return NO_BRIDGE
+    start = start_of(held, separation, 1.0) if is_near and not near.radius > 0.0 else near
+    ask_in_lane(room, lane, separation, held, start)
+    return OPEN
+
+
+@kernel
+def abreast_status(room: Numbers, lane: int, wanted: int, near: Arc, control: int, row: Rows) -> int:
+    """Store the stable bridge that was found in a lane, or what the straight way leads to by itself, else OPEN."""
+    separation, held = asked_in_lane(room, lane, control)
+    arc = found_in_lane(room, lane)
+    if arc.radius > 0.0:
+        if wanted != ALL:
+            store_force(arc, separation, held, wanted, row)
+            return FOUND
+        if all_stored(arc, held, are_alike(held.first, held.second), False, row):
+            return FOUND
+    return straight_status(wanted, near, separation, held, row)
 
 
 @kernel
@@ -183,15 +237,25 @@ def answer_one(asked: int, limit: int, task: Task, nodes: Rows, row: Rows) -> in
 
 @entry(plain_cost=5e-4, patience=4.0)
 def stable_range(
-    wanted: int, control: int, questions: Rows, states: Rows, statuses: Statuses, start: int, stop: int
+    wanted: int, control: int, questions: Rows, states: Rows, statuses: Statuses, room: Numbers, start: int, stop: int
 ) -> None:
     """Stable bridges of the rows to which the straight way leads; others stay OPEN."""
-    for i in range(start, stop):
-        task = task_of(questions[i], control)
-        status = straight_status(wanted, NOWHERE, task.separation, held_of(task), states[i])
-        statuses[i] = status
-        if status != FOUND:
-            states[i, :] = math.nan
+    width = lanes()
+    for begin in range(start, stop, width):
+        count = min(width, stop - begin)
+        for lane in range(width):
+            if lane < count:
+                task = task_of(questions[begin + lane], control)
+                statuses[begin + lane] = ask_abreast(room, lane, NOWHERE, task.separation, held_of(task), False)
+            else:
+                ask_nothing(room, lane, control)
+        answer_abreast(room, control, wanted, False)
+        for lane in range(count):
+            i = begin + lane
+            if statuses[i] == OPEN:
+                statuses[i] = abreast_status(room, lane, wanted, NOWHERE, control, states[i])
+            if statuses[i] != FOUND:
+                states[i, :] = math.nan
 
 
 @entry(plain_cost=4e-3, patience=4.0)
@@ -253,7 +317,7 @@ def answer(
     """
     states, statuses = np.empty((len(questions), len(State._fields))), np.full(len(questions), OPEN, np.int8)
     if asked == STABLE:
-        _over_open(stable_range, (wanted, control), questions, states, statuses)
+        _over_open(stable_range, (wanted, control), questions, states, statuses, ABREAST)
     _answer_open(asked, control, questions, limit, states, statuses)
     return states, statuses
 

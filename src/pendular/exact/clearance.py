@@ -7,20 +7,40 @@ certain, points are looked at.
 """
 
 import math
+from typing import Protocol
 
 from ..ground.compile import kernel
+from ..ground.lanes import choose
 from .algebra import Four
 from .equations import Held, System, curvature_of, force_of
-from .meridian import End, extreme_phases, middle_of, panel_of, panels_of
+from .meridian import extreme_phases, middle_of, panel_of, panels_of
 from .quadrature import Cut, cuts_of, node_at
-from .solids import Solid, contact_with, depth_inside, half_filling_angle, half_filling_cosine
+from .solids import Solid, contact_with, depth_inside, half_filling_angle, half_filling_cosine, half_filling_sine
 
 _MOST_TURN = 6.3  # |ω|: an arc of a whole wave
 _FARTHEST = 60.0  # |ln Ym| and |ln ℓ|
 _CLOSED_NECK = 1e-6  # over ℓ: a thread that holds nothing
 _PIECES = 16  # of a cut, at whose ends the meridian is looked at
 _DEEPEST = 1e-7  # over the arc length; contact circles themselves lie at zero
+_ROUNDING = 1e-13  # of a sine
+_TINY = 1e-300
 _GAUSS = ((-math.sqrt(0.6), 5.0 / 9.0), (0.0, 8.0 / 9.0), (math.sqrt(0.6), 5.0 / 9.0))
+
+
+class Rim(Protocol):
+    """A contact circle, and the slope ψ of the meridian there, outwards."""
+
+    @property
+    def radius(self) -> float:
+        """Y."""
+
+    @property
+    def cos_slope(self) -> float:
+        """Of ψ."""
+
+    @property
+    def sin_slope(self) -> float:
+        """Of ψ."""
 
 
 @kernel
@@ -29,21 +49,19 @@ def radius_range(z: Four, system: System) -> tuple[float, float]:
     necks, bulges = extreme_phases(z)
     middle, curvature = middle_of(z), curvature_of(z)
     ratio = math.hypot(1.0 + curvature * middle.real, curvature * middle.imag)
-    return radii_between(system, necks, bulges, force_of(z), curvature, ratio)
+    return radii_between(system.first, system.second, necks, bulges, force_of(z), curvature, ratio)
 
 
 @kernel
 def radii_between(
-    system: System, necks: int, bulges: int, force: float, curvature: float, ratio: float
+    first: Rim, second: Rim, necks: float, bulges: float, force: float, curvature: float, ratio: float
 ) -> tuple[float, float]:
     """Least and largest radius of an arc with so many necks and bulges; the ratio is |1 + Hζ|."""
-    least = min(system.first.radius, system.second.radius)
-    most = max(system.first.radius, system.second.radius)
-    if necks > 0:
-        least = min(least, 2.0 * abs(force) / (1.0 + ratio))
-    if bulges > 0:
-        most = max(most, (1.0 + ratio) / abs(curvature))
-    return least, most
+    least, most = min(first.radius, second.radius), max(first.radius, second.radius)
+    return (
+        choose(necks > 0, min(least, 2.0 * abs(force) / (1.0 + ratio)), least),
+        choose(bulges > 0, max(most, (1.0 + ratio) / max(abs(curvature), _TINY)), most),
+    )
 
 
 @kernel
@@ -65,38 +83,78 @@ def opening_of(z: Four, system: System, held: Held) -> float:
 
 
 @kernel
-def _is_certain(end: End, solid: Solid, least: float, bend: float, steepest: float) -> bool:
+def _is_certain(rim: Rim, solid: Solid, least: float, bend: float, steepest: float) -> bool:
     """Whether a meridian that runs forward stays clear of a solid.
 
     By its largest bend, by its least radius, or as it nowhere is as steep as the solid at its contact circle, given the
     cosine of its steepest slope: it lies beyond the tangent there.
     """
-    cos_filling = half_filling_cosine(solid, end.cos_slope, end.sin_slope)
-    is_beyond = end.radius <= least or steepest > solid.curvature * end.radius
-    return bend >= -solid.curvature or (cos_filling >= 0.0 and is_beyond)
+    cos_filling = half_filling_cosine(solid, rim.cos_slope, rim.sin_slope)
+    is_beyond = (rim.radius <= least) | (steepest > solid.curvature * rim.radius)
+    return (bend >= -solid.curvature) | ((cos_filling >= 0.0) & is_beyond)
 
 
 @kernel
 def is_clear(z: Four, system: System, held: Held) -> bool:
     """Whether the meniscus enters neither solid."""
     least, most = radius_range(z, system)
-    return is_clearly_outside(system, held, least, most, force_of(z), curvature_of(z)) or _stays_outside(
+    force, curvature = force_of(z), curvature_of(z)
+    return is_clearly_outside(system.first, system.second, held, least, most, force, curvature) or _stays_outside(
         z, system, held
     )
 
 
 @kernel
-def is_clearly_outside(system: System, held: Held, least: float, most: float, force: float, curvature: float) -> bool:
+def is_clearly_outside(
+    first: Rim, second: Rim, held: Held, least: float, most: float, force: float, curvature: float
+) -> bool:
     """Whether the bounds of its radius and its bend tell that a meniscus enters neither solid."""
     half = 0.5 * curvature
     at_least, at_most = force / least - half * least, force / most - half * most  # cosine of the slope
-    inside = -half * least * least < force < -half * most * most  # where the meridian is straight
-    steepest = 2.0 * math.sqrt(-half * force) if inside else min(at_least, at_most)
+    inside = (-half * least * least < force) & (force < -half * most * most)  # where the meridian is straight
+    steepest = choose(inside, 2.0 * math.sqrt(max(-half * force, 0.0)), min(at_least, at_most))
     bend = half + min(force / (least * least), force / (most * most))
     return (
-        min(at_least, at_most) > 0.0
-        and _is_certain(system.first, held.first, least, bend, steepest)
-        and _is_certain(system.second, held.second, least, bend, steepest)
+        (min(at_least, at_most) > 0.0)
+        & _is_certain(first, held.first, least, bend, steepest)
+        & _is_certain(second, held.second, least, bend, steepest)
+    )
+
+
+@kernel
+def extrema_between(first: Rim, second: Rim) -> tuple[float, float]:
+    """Numbers of necks and bulges in less than half a turn: there is one, where both ends lean the same way."""
+    necks = choose((first.sin_slope > 0.0) & (second.sin_slope > 0.0), 1.0, 0.0)
+    return necks, choose((first.sin_slope < 0.0) & (second.sin_slope < 0.0), 1.0, 0.0)
+
+
+@kernel
+def _is_forward(rim: Rim, solid: Solid) -> bool:
+    """Whether a contact circle is on the right side of its solid, before a far pole."""
+    sine = half_filling_sine(solid, rim.cos_slope, rim.sin_slope)
+    cosine = half_filling_cosine(solid, rim.cos_slope, rim.sin_slope)
+    return choose(solid.curvature > 0.0, sine, cosine) > -_ROUNDING
+
+
+@kernel
+def is_beyond_doubt(
+    first: Rim,
+    second: Rim,
+    held: Held,
+    necks: float,
+    bulges: float,
+    force: float,
+    curvature: float,
+    ratio: float,
+    half_width: float,
+) -> bool:
+    """Whether bounds tell that an arc is a bridge that enters neither solid; the ratio is |1 + Hζ|."""
+    least, most = radii_between(first, second, necks, bulges, force, curvature, ratio)
+    return (
+        _is_forward(first, held.first)
+        & _is_forward(second, held.second)
+        & (least > _CLOSED_NECK * half_width)
+        & is_clearly_outside(first, second, held, max(least, _TINY), most, force, curvature)
     )
 
 

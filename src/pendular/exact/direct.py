@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..ground.compile import kernel
 from .algebra import Four, largest, solve4
 from .arc import (
+    HALF_A_TURN,
     Arc,
     arc_after,
     force_on,
@@ -19,36 +20,33 @@ from .arc import (
     half_length_of,
     is_fit,
     meridian_of,
+    ratio_of,
     room_of,
     sums_of,
     system_on,
 )
-from .clearance import is_clearly_outside, radii_between
+from .clearance import extrema_between, is_beyond_doubt
 from .equations import SUCTION, VOLUME, Held, System, curvature_rates, volume_row
 from .guess import start_at_suction, start_at_volume
 from .meridian import Row, extreme_phases
-from .newton import LONGEST_STEP, held_target
-from .solids import half_filling_cosine, half_filling_sine
+from .newton import LONGEST_STEP, NO_STEP, held_target
 from .stability import ladder_of
 from .state import HALF_LENGTH, Figure, State, miss_of, sideways_of, state_of
+from .suction import beyond_fold
 
 Rows = NDArray[np.float64]
 
 FORCE_ALONE, ALL, FORCE_TO_GO_ON = 0, 1, 2  # what is stored of a bridge; the last with its meridian
 
 _MOST_STEPS = 12
-_LEAST_OF_TWO_EXTREMA = 1.99  # η below which an arc makes less than half a turn
 _WIDENED = (1.0, 1.35, 1.82, 2.46)  # of the contact circles of the guess under suction, next to a fold
 _COARSE_STEP = 1e-3  # from which on all nodes are used
-_NO_STEP = 1e-20
 _LEFT, _LEFT_OF_FORCE = 1e-14, 1e-11  # largest change that would follow
 _LARGEST_MISS = 1e-10
-_ROUNDING = 1e-13  # of a sine
 _SEPARATION, _CURVATURE, _FORCE, _UNSTABLE, _SIDEWAYS, _MIDDLE, _SLOPE = map(
     State._fields.index,
     ("separation", "curvature", "force", "unstable_directions", "sideways_stable", "middle_radius", "middle_slope"),
 )
-_CLOSED_NECK = 1e-6  # over ℓ
 
 
 class Met(NamedTuple):
@@ -141,72 +139,64 @@ def newton_on(arc: Arc, separation: float, held: Held, most: int, enough: float,
             break
         if not is_fit(arc):
             break
-        fine, before = fine or size < _COARSE_STEP, max(size, _NO_STEP)
+        fine, before = fine or size < _COARSE_STEP, max(size, NO_STEP)
     return Met(arc, system, is_met)
 
 
 @kernel
-def extrema_of(arc: Arc, system: System) -> tuple[int, int]:
-    """Numbers of necks and bulges: in less than half a turn there is one, where both ends lean the same way."""
-    if abs(arc.eta) > _LEAST_OF_TWO_EXTREMA:
-        return extreme_phases(meridian_of(arc))
-    first, second = system.first.sin_slope, system.second.sin_slope
-    return 1 if first > 0.0 and second > 0.0 else 0, 1 if first < 0.0 and second < 0.0 else 0
+def extrema_of(arc: Arc, system: System) -> tuple[float, float]:
+    """Numbers of necks and bulges."""
+    if abs(arc.eta) > HALF_A_TURN:
+        necks, bulges = extreme_phases(meridian_of(arc))
+        return float(necks), float(bulges)
+    return extrema_between(system.first, system.second)
 
 
 @kernel
-def _is_bridge(arc: Arc, system: System, held: Held, necks: int, bulges: int) -> bool:
+def _is_bridge(arc: Arc, system: System, held: Held, necks: float, bulges: float) -> bool:
     """Whether the arc is beyond doubt a bridge that enters neither solid."""
-    first, second = system.first, system.second
-    sine1 = half_filling_sine(held.first, first.cos_slope, first.sin_slope)
-    sine2 = half_filling_sine(held.second, second.cos_slope, second.sin_slope)
-    if held.first.curvature == 0.0:
-        sine1 = half_filling_cosine(held.first, first.cos_slope, first.sin_slope)
-    if held.second.curvature == 0.0:
-        sine2 = half_filling_cosine(held.second, second.cos_slope, second.sin_slope)
-    curvature, force = arc.eta / arc.half_width, force_on(arc)
-    least, most = radii_between(system, necks, bulges, force, curvature, _ratio_of(arc))
-    return (
-        min(sine1, sine2) > -_ROUNDING
-        and least > _CLOSED_NECK * arc.half_width
-        and is_clearly_outside(system, held, least, most, force, curvature)
-    )
-
-
-@kernel
-def _ratio_of(arc: Arc) -> float:
-    """|1 + Hζ|."""
-    turned = arc.eta / arc.half_width * arc.radius
-    real, imag = 1.0 + turned, turned * arc.slope
-    return math.sqrt(real * real + imag * imag)
+    force, curvature = force_on(arc), arc.eta / arc.half_width
+    ratio = ratio_of(arc)
+    return is_beyond_doubt(system.first, system.second, held, necks, bulges, force, curvature, ratio, arc.half_width)
 
 
 @kernel
 def _unstable_of(arc: Arc, system: System, held: Held) -> int:
     """Unstable directions under what is held."""
     necks, bulges = extrema_of(arc, system)
-    ladder = ladder_of(system, arc.eta, necks + bulges, held.control == VOLUME)
+    ladder = ladder_of(system, arc.eta, int(necks + bulges), held.control == VOLUME)
     return ladder.at_suction if held.control == SUCTION else ladder.at_volume
 
 
 @kernel
-def stored_on(arc: Arc, is_near: bool, separation: float, held: Held, symmetric: bool, wanted: int, row: Rows) -> bool:
-    """Store the stable bridge to which Newton's method leads from an arc, or of it the force alone."""
+def met_on(arc: Arc, is_near: bool, separation: float, held: Held, wanted: int) -> Met:
+    """Where Newton's method leads from an arc."""
     left = _LEFT if wanted == ALL else _LEFT_OF_FORCE
-    met = newton_on(arc, separation, held, _MOST_STEPS, 0.0, left, is_near)
+    return newton_on(arc, separation, held, _MOST_STEPS, 0.0, left, is_near)
+
+
+@kernel
+def _stored(met: Met, separation: float, held: Held, symmetric: bool, wanted: int, row: Rows) -> bool:
+    """Store the stable bridge that Newton's method met, or of it the force alone."""
     if not met.is_met:
         return False
-    if wanted != ALL:
-        force = force_on(met.arc)
-        row[:] = math.nan
-        row[_SEPARATION], row[_CURVATURE], row[_FORCE] = separation, met.arc.eta / met.arc.half_width, force
-        row[_UNSTABLE], row[_SIDEWAYS] = 0.0, sideways_of(force, held)
-        if wanted == FORCE_TO_GO_ON:
-            row[_MIDDLE], row[_SLOPE] = met.arc.radius * math.sqrt(1.0 + met.arc.slope**2), math.atan(met.arc.slope)
-            row[HALF_LENGTH] = half_length_of(met.arc)
-        necks, bulges = extrema_of(met.arc, met.system)
-        return _unstable_of(met.arc, met.system, held) == 0 and _is_bridge(met.arc, met.system, held, necks, bulges)
-    return all_stored(met.arc, held, symmetric, False, row)
+    if wanted == ALL:
+        return all_stored(met.arc, held, symmetric, False, row)
+    store_force(met.arc, separation, held, wanted, row)
+    necks, bulges = extrema_of(met.arc, met.system)
+    return _unstable_of(met.arc, met.system, held) == 0 and _is_bridge(met.arc, met.system, held, necks, bulges)
+
+
+@kernel
+def store_force(arc: Arc, separation: float, held: Held, wanted: int, row: Rows) -> None:
+    """Store the force of a stable bridge, and what goes with it."""
+    force = force_on(arc)
+    row[:] = math.nan
+    row[_SEPARATION], row[_CURVATURE], row[_FORCE] = separation, arc.eta / arc.half_width, force
+    row[_UNSTABLE], row[_SIDEWAYS] = 0.0, sideways_of(force, held)
+    if wanted == FORCE_TO_GO_ON:
+        row[_MIDDLE], row[_SLOPE] = arc.radius * math.sqrt(1.0 + arc.slope**2), math.atan(arc.slope)
+        row[HALF_LENGTH] = half_length_of(arc)
 
 
 @kernel
@@ -225,9 +215,9 @@ def all_stored(arc: Arc, held: Held, symmetric: bool, is_end: bool, row: Rows) -
         arc.eta / tau,
         force_on(arc),
         force_rates_on(arc),
-        _ratio_of(arc),
-        necks,
-        bulges,
+        ratio_of(arc),
+        int(necks),
+        int(bulges),
         math.pi * square * sums.across,
         2.0 * math.pi * square * sums.axial,
     )
@@ -254,8 +244,13 @@ def straight_stored(near: Arc, separation: float, held: Held, symmetric: bool, w
     for widened in _WIDENED:
         if not is_near:
             start = start_of(held, separation, widened)
-        if stored_on(start, is_near, separation, held, symmetric, wanted, row):
+        met = met_on(start, is_near, separation, held, wanted)
+        if _stored(met, separation, held, symmetric, wanted, row):
             return True
+        if held.control == SUCTION and met.is_met and _unstable_of(met.arc, met.system, held) == 1:
+            met = met_on(beyond_fold(met.arc, held), False, separation, held, wanted)
+            if _stored(met, separation, held, symmetric, wanted, row):
+                return True
         if held.control == VOLUME and not is_near:
             break
         is_near = False

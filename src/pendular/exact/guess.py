@@ -8,6 +8,7 @@ import math
 from typing import NamedTuple
 
 from ..ground.compile import kernel
+from ..ground.lanes import choose, every
 from .algebra import Four
 from .equations import SUCTION, Held
 from .solids import Solid
@@ -18,6 +19,8 @@ _MOST_TURN = 1.5  # |ω|
 _FARTHEST_SHIFT = 0.6  # of a contact radius from their mean, over it
 _THINNEST_MIDDLE = 0.25  # over the mean contact radius
 _LEAST_ROOM = 1e-12  # Σ cos θ - DH between planes, where a bridge is wider than all bounds
+_STRAIGHT = 1e-3  # half turn below which its sine is itself
+_TINY = 1e-30
 _DEEPEST_BEND = -0.9  # cos of the half turn beyond which the sagitta of the circle is not used
 
 
@@ -53,17 +56,13 @@ def circle_between(held: Held, separation: float, radius: float, shift: float) -
     gap = separation + height1 + height2
     x, y = cos1 + cos2, sin1 + sin2
     size = math.sqrt(x * x + y * y)
-    cosine = 0.5 * size
-    if cosine > _LEAST_COSINE:
-        cos_turn, sin_turn = x / size, y / size
-        tangent = (sin2 * cos_turn - cos2 * sin_turn) / cosine
-    else:
-        inverse = 1.0 / max(size, 1e-9)
-        cos_turn, sin_turn = x * inverse, y * inverse
-        tangent = 1.0 if sin2 * cos_turn - cos2 * sin_turn > 0.0 else -1.0
-        cosine = _LEAST_COSINE
+    inverse = 1.0 / max(size, 1e-9)
+    cos_turn, sin_turn = x * inverse, y * inverse
+    across = sin2 * cos_turn - cos2 * sin_turn
+    cosine = max(0.5 * size, _LEAST_COSINE)
+    tangent = choose(0.5 * size > _LEAST_COSINE, across / cosine, choose(across > 0.0, 1.0, -1.0))
     half_chord = 0.5 * gap / cosine
-    sagitta = half_chord * sin_turn / (1.0 + cos_turn) if cos_turn > _DEEPEST_BEND else 0.0
+    sagitta = half_chord * choose(cos_turn > _DEEPEST_BEND, sin_turn / max(1.0 + cos_turn, 1.0 + _DEEPEST_BEND), 0.0)
     most = _FARTHEST_SHIFT * radius
     return Circle(
         max(radius - sagitta * cosine, _THINNEST_MIDDLE * radius),
@@ -91,25 +90,32 @@ class Start(NamedTuple):
 
 @kernel
 def _half_turn(circle: Circle) -> float:
-    """Half the turn of the slope, to three digits where it is no more than a quarter of a circle."""
-    if circle.cos_turn < 0.0:
-        return math.atan2(circle.sin_turn, circle.cos_turn)
-    t = circle.sin_turn / (1.0 + circle.cos_turn)  # of a quarter of the turn
+    """Half the turn of the slope, to three digits."""
+    rise, run = abs(circle.sin_turn), 1.0 + circle.cos_turn
+    t = min(rise, run) / max(rise, run)  # tangent of a quarter of the turn, or of what it lacks to 45 degrees twice
     square = t * t
-    return t * (1.99957 + square * (-0.65147 + square * (0.31077 + square * -0.0884)))
+    half = t * (1.99957 + square * (-0.65147 + square * (0.31077 + square * -0.0884)))
+    half = choose(rise > run, math.pi - half, half)
+    return choose(circle.sin_turn < 0.0, -half, half)
 
 
 @kernel
 def _arc_of(circle: Circle, half_turn: float) -> float:
     """Half length of a circular arc over its half chord: x/sin x."""
-    return circle.half_chord * (half_turn / circle.sin_turn if abs(half_turn) > 1e-3 else 1.0)
+    is_bent = abs(half_turn) > _STRAIGHT
+    return circle.half_chord * choose(is_bent, half_turn / choose(is_bent, circle.sin_turn, 1.0), 1.0)
 
 
 @kernel
 def _bend_of(circle: Circle) -> float:
     """(x/sin x + cos x)/2 of the half turn x: the sine of the slope over the half length, averaged."""
-    x = _half_turn(circle)
-    return 0.5 * (x / circle.sin_turn + circle.cos_turn) if abs(x) > 1e-3 else 1.0
+    return _bend(_half_turn(circle), circle.sin_turn, circle.cos_turn)
+
+
+@kernel
+def _bend(half_turn: float, sine: float, cosine: float) -> float:
+    is_bent = abs(half_turn) > _STRAIGHT
+    return choose(is_bent, 0.5 * (half_turn / choose(is_bent, sine, 1.0) + cosine), 1.0)
 
 
 @kernel
@@ -130,11 +136,9 @@ def start_at_volume(held: Held, separation: float) -> Start:
     h1, h2 = circle.height1, circle.height2
     caps = h1 * (3.0 * radius * radius + h1 * h1) + h2 * (3.0 * radius * radius + h2 * h2)
     inside = (gap * (2.0 * (radius * radius + shift * shift) + 4.0 * middle * middle) - caps) / 6.0
-    if inside > 0.05 * volume:
-        logarithm = 2.0 * (volume - inside) / (volume + inside)  # of their ratio, about
-        radius *= _grown(logarithm / (2.0 + 2.0 * (h1 + h2) / gap), 0.5)
-    else:
-        radius *= 1.3
+    is_some = inside > 0.05 * volume
+    logarithm = 2.0 * (volume - inside) / (volume + choose(is_some, inside, volume))  # of their ratio, about
+    radius = radius * choose(is_some, _grown(logarithm / (2.0 + 2.0 * (h1 + h2) / gap), 0.5), 1.3)
     circle = circle_between(held, separation, radius, shift)
     half_turn = _half_turn(circle)
     length = _arc_of(circle, half_turn)
@@ -161,7 +165,7 @@ def _torus_between(one: Solid, other: Solid) -> Torus:
         0.5 * (one.curvature + other.curvature),
         cosines,
         one.curvature * one.sin_angle + other.curvature * other.sin_angle,
-        0.5 * (half_turn / sine + cosine) if abs(half_turn) > 1e-3 else 1.0,
+        _bend(half_turn, sine, cosine),
     )
 
 
@@ -170,23 +174,23 @@ def _torus_radius(held: Held, separation: float) -> float:
     """Largest root Y of the torus, k̄HY³ + (k̄β + B)Y² + (DH - C)Y + βD = 0."""
     mean, cosines, sines, bend = _torus_between(held.first, held.second)
     suction = held.value
-    if mean == 0.0:  # two planes: the one root
-        return bend * separation / max(cosines - separation * suction, _LEAST_ROOM)
     positive = max(suction, 0.0)
     linear = mean * bend + sines
     room = max(cosines - separation * positive, 0.02 * cosines)
-    radius = 2.0 * room / (linear + math.sqrt(linear * linear + 4.0 * mean * positive * room))
+    radius = 2.0 * room / max(linear + math.sqrt(linear * linear + 4.0 * mean * positive * room), _TINY)
+    is_lost, is_met = radius < 0.0, radius < 0.0
     for _ in range(4):
         value = ((mean * suction * radius + linear) * radius + (separation * suction - cosines)) * radius
         value += bend * separation
         rate = (3.0 * mean * suction * radius + 2.0 * linear) * radius + (separation * suction - cosines)
-        if not rate > 0.0:
-            return radius * 1.1
-        step = min(value / rate, 0.5 * radius)
-        radius -= step
-        if abs(step) < 0.02 * radius:
+        is_lost = is_lost | (rate <= 0.0)
+        step = choose(is_lost | is_met, 0.0, min(value / choose(rate > 0.0, rate, 1.0), 0.5 * radius))
+        radius = radius - step
+        is_met = is_met | is_lost | (abs(step) < 0.02 * radius)
+        if every(is_met):
             break
-    return radius
+    between_planes = bend * separation / max(cosines - separation * suction, _LEAST_ROOM)  # the one root
+    return choose(mean > 0.0, choose(is_lost, 1.1 * radius, radius), between_planes)
 
 
 @kernel
@@ -195,8 +199,7 @@ def start_at_suction(held: Held, separation: float, corrected: bool, widened: fl
     suction = held.value
     one, other = held.first, held.second
     radius = _torus_radius(held, separation) * widened
-    if not radius > 0.0:
-        radius = 0.5 / max(one.curvature, other.curvature)
+    radius = choose(radius > 0.0, radius, 0.5 / max(max(one.curvature, other.curvature), _TINY))
     circle = circle_between(held, separation, radius, 0.0)
     if corrected:
         gap, heights = circle.gap, circle.height1 + circle.height2
@@ -206,15 +209,16 @@ def start_at_suction(held: Held, separation: float, corrected: bool, widened: fl
         excess = gap * (suction * mean + bend) - sines * mean
         slopes = one.curvature * one.sin_angle + other.curvature * other.sin_angle
         rate = 2.0 * heights / radius * (suction * mean + bend) + gap * suction - sines + mean * slopes
-        if rate > 0.0:
-            radius *= _grown(-excess / (rate * radius), 0.4)
+        is_steep = rate > 0.0
+        exponent = choose(is_steep, -excess / (choose(is_steep, rate, 1.0) * radius), 0.0)
+        radius = radius * _grown(exponent, 0.4)
         circle = circle_between(held, separation, radius, circle.shift)
     half_turn = _half_turn(circle)
     length = _arc_of(circle, half_turn)
     turn = suction * length
-    if abs(turn) > _MOST_TURN:
-        length, turn = _MOST_TURN / abs(suction), math.copysign(_MOST_TURN, turn)
-    return Start(circle.middle, circle.cos_tilt, circle.tan_tilt, length, turn)
+    # an arc that would turn farther is cut
+    cut = _MOST_TURN / max(abs(turn), _MOST_TURN)
+    return Start(circle.middle, circle.cos_tilt, circle.tan_tilt, length * cut, turn * cut)
 
 
 @kernel

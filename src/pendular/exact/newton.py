@@ -8,9 +8,10 @@ from .equations import VOLUME, Held, held_row, system_at
 from .meridian import Row
 
 LONGEST_STEP = 1.0
+COARSE_STEPS, MOST_STEPS = 3, 7  # of rows abreast
 _MOST_TURN = 9.0  # |ω| beyond which an arc winds about itself
 _COARSE_STEP = 1e-4  # from which on the finer nodes are used
-_NO_STEP = 1e-20  # a guess may be the bridge itself
+NO_STEP = 1e-20  # a guess may be the bridge itself
 _LEFT = 1e-16  # largest change that would follow
 _NEARLY_HELD = 0.3  # share of the volume above which its logarithm is what is corrected
 
@@ -49,5 +50,5 @@ def newton_to(z: Four, separation: float, held: Held, most: int) -> tuple[Four, 
         # what is left after a step is its square, by the factor that made it the square of the one before
         if fine and size * (size / before) ** 2 < _LEFT:
             return z, True
-        fine, before = size < _COARSE_STEP, max(size, _NO_STEP)
+        fine, before = size < _COARSE_STEP, max(size, NO_STEP)
     return z, False

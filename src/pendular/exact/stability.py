@@ -16,9 +16,11 @@ unstable directions at fixed suction and at fixed volume. Sideways (the mode tha
 bridge is unstable exactly where it pushes the solids apart.
 """
 
+import math
 from typing import NamedTuple
 
 from ..ground.compile import kernel
+from ..ground.lanes import choose
 from .algebra import Four, determinant
 from .equations import System
 from .meridian import extreme_phases
@@ -50,28 +52,44 @@ def _determinant(a: _Three, b: _Three, c: _Three) -> float:
 
 
 @kernel
-def ladder_of(system: System, turn: float, extrema: int, with_volume: bool) -> Ladder:
-    """Unstable directions of a bridge whose meridian has so many extrema of its radius; ``turn`` is the fourth number.
+def directions_at_suction(extrema: float, held_rings: float, one_free: float, both_free: float) -> float:
+    """n_s, from the extrema of the radius and the determinants d0, d1 and d2."""
+    parity = 1.0 - 2.0 * (extrema - 2.0 * math.floor(0.5 * extrema))
+    count = extrema - choose(held_rings * parity > 0.0, 0.0, 1.0)
+    return count + _differ(held_rings, one_free) + _differ(one_free, both_free)
 
-    Without the volume in its system, ``at_volume`` means nothing.
-    """
+
+@kernel
+def _differ(one: float, other: float) -> float:
+    """1 where one of two numbers is above zero and the other is not."""
+    return abs(choose(one > 0.0, 1.0, 0.0) - choose(other > 0.0, 1.0, 0.0))
+
+
+@kernel
+def directions_of(system: System, turn: float, extrema: float, with_volume: bool) -> tuple[float, float]:
+    """Unstable directions at fixed suction and at fixed volume, as numbers; those of `ladder_of`."""
     c1, c2 = _at_suction(system.contact1.rates, turn), _at_suction(system.contact2.rates, turn)
     ring1, ring2 = _at_suction(system.first.growth, turn), _at_suction(system.second.growth, turn)
     held_rings = _determinant(ring1, ring2, _at_suction(system.length.rates, turn))
     one_free = _determinant(c1, ring2, _at_suction(system.first_gap.rates, turn))
     both_free = _determinant(c1, c2, _at_suction(system.separation.rates, turn))
-    parity = 1.0 if extrema % 2 == 0 else -1.0
-    count = extrema if held_rings * parity > 0.0 else extrema - 1
-    if (held_rings > 0.0) != (one_free > 0.0):
-        count += 1
-    if (one_free > 0.0) != (both_free > 0.0):
-        count += 1
+    at_suction = directions_at_suction(extrema, held_rings, one_free, both_free)
     if not with_volume:
-        return Ladder(count, count)
+        return at_suction, at_suction
     volume_held = determinant(
         system.contact1.rates, system.contact2.rates, system.separation.rates, system.volume.rates
     )
-    return Ladder(count, count - 1 if (both_free > 0.0) == (volume_held > 0.0) else count)
+    return at_suction, at_suction - 1.0 + _differ(both_free, volume_held)
+
+
+@kernel
+def ladder_of(system: System, turn: float, extrema: int, with_volume: bool) -> Ladder:
+    """Unstable directions of a bridge whose meridian has so many extrema of its radius; ``turn`` is the fourth number.
+
+    Without the volume in its system, ``at_volume`` means nothing.
+    """
+    at_suction, at_volume = directions_of(system, turn, float(extrema), with_volume)
+    return Ladder(int(at_suction), int(at_volume))
 
 
 @kernel

@@ -63,7 +63,7 @@ def _look(arc: Arc, held: Held, symmetric: bool, hand: float) -> Look:
         first.rates, system.contact2.rates, rates, along, -first.value, -system.contact2.value, target, 0.0
     )
     necks, bulges = extrema_of(arc, system)
-    ladder = ladder_of(system, arc.eta, necks + bulges, held.control == VOLUME)
+    ladder = ladder_of(system, arc.eta, int(necks + bulges), held.control == VOLUME)
     return Look(
         way,
         along,

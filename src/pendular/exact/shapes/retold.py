@@ -15,7 +15,9 @@ from .side import AnySystem, for_ladder, has_side, off_side, on_side
 
 
 @kernel
-def _is_clearly_outside(_system: Any, _held: Any, least: float, most: float, force: float, curvature: float) -> bool:
+def _is_clearly_outside(
+    _first: Any, _second: Any, _held: Any, least: float, most: float, force: float, curvature: float
+) -> bool:
     """Whether a meridian runs forward and is nowhere bent outwards, so that no convex solid can be met again."""
     half = 0.5 * curvature
     at_least, at_most = force / least - half * least, force / most - half * most

@@ -12,6 +12,7 @@ import math
 from typing import NamedTuple
 
 from ...ground.compile import kernel
+from ...ground.lanes import choose
 
 _ROUNDING = 1e-13  # of a sine
 _PAST_EQUATOR = -0.5  # cos δ below which h = (1 - cos δ)/k is the accurate form
@@ -53,14 +54,11 @@ def contact_with(solid: Solid, radius: float, cos_slope: float, sin_slope: float
     sine = half_filling_sine(solid, cos_slope, sin_slope)
     cosine = half_filling_cosine(solid, cos_slope, sin_slope)
     turned = k * radius
-    if k == 0.0:
-        height, by_radius, by_slope = 0.0, 0.0, 0.0
-    elif cosine < _PAST_EQUATOR:
-        height, by_radius, by_slope = (1.0 - cosine) / k, 0.0, -sine / k
-    else:
-        inverse = 1.0 / (1.0 + cosine)
-        height = turned * radius * inverse
-        by_radius, by_slope = 2.0 * height, -height * sine * inverse
+    is_past = (cosine < _PAST_EQUATOR) & (k > 0.0)
+    over, inverse = 1.0 / choose(k > 0.0, k, 1.0), 1.0 / max(1.0 + cosine, 1.0 + _PAST_EQUATOR)
+    height = choose(is_past, (1.0 - cosine) * over, turned * radius * inverse)
+    by_radius = choose(is_past, 0.0, 2.0 * height)
+    by_slope = choose(is_past, -sine * over, -height * sine * inverse)
     square = radius * radius
     lifted = 0.5 * (square + height * height)
     return Contact(
