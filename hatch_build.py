@@ -38,7 +38,8 @@ class MachineCode(BuildHookInterface[Any]):
         if shutil.which("wasm-ld"):
             page = Path(self._folder.name, "page")
             self._run("-c", "from pendular.front.cli import main; main()", "export", "wasm", "--out", page)
-            build_data["force_include"][str(page / "pendular.wasm")] = "pendular/codes/wasm/pendular.wasm"
+            for name in ("pendular.wasm", "solids.wasm"):
+                build_data["force_include"][str(page / name)] = f"pendular/codes/wasm/{name}"
         build_data["pure_python"] = False
         build_data["tag"] = f"py3-none-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
 

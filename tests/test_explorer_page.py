@@ -447,7 +447,7 @@ def test_another_control_shows_the_same_bridge(desk):
 
 
 def test_a_plane_and_two_angles(desk):
-    desk.page.get_by_role("checkbox", name="Solid 2 is a plane").check()
+    desk.page.select_option("#kind2", "plane")
     playwright.expect(desk.text("Radius 2")).to_be_hidden()
     desk.page.get_by_role("checkbox", name="Same contact angle on both").uncheck()
     desk.write("Contact angle 2", "60")
@@ -752,7 +752,7 @@ def test_all_is_reached_by_keyboard(desk):
         "Suction",
         "Separation",
         "Radius 1",
-        "Solid 2 is a plane",
+        "Solid 2",
         "Liquid",
         "Quantity",
         "zhao2020",

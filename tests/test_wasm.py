@@ -47,8 +47,14 @@ console.log(JSON.stringify(answers, (_, value) => (ArrayBuffer.isView(value) ? [
 def folder(tmp_path_factory):
     """What the command writes, and a script that asks what stands on its input."""
     folder = tmp_path_factory.mktemp("wasm") / "page"
-    assert [path.name for path in wasm.write(folder)] == ["pendular.wasm", "pendular.mjs", "pendular.d.mts"]
+    scripts = ["pendular.mjs", "pendular.d.mts", "solids.mjs", "solids.d.mts"]
+    assert [path.name for path in wasm.write(folder)] == ["pendular.wasm", "solids.wasm", *scripts]
     (folder / "ask.mjs").write_text(ASK)
+    (folder / "ask_solids.mjs").write_text(
+        ASK.replace("{ load }", "{ loadSolids }")
+        .replace("./pendular", "./solids")
+        .replace("await load()", "await loadSolids()")
+    )
     return folder
 
 
@@ -56,9 +62,9 @@ def folder(tmp_path_factory):
 def answers_of(folder):
     """Answers of the module to questions."""
 
-    def answers_of(questions):
+    def answers_of(questions, script="ask.mjs"):
         done = subprocess.run(
-            ["node", "ask.mjs"], cwd=folder, input=json.dumps(questions), capture_output=True, text=True, check=True
+            ["node", script], cwd=folder, input=json.dumps(questions), capture_output=True, text=True, check=True
         )
         return json.loads(done.stdout)
 
@@ -271,12 +277,136 @@ def test_laws_are_those_of_python(answers_of):
 
 
 @NODE
-def test_the_page_shows_what_its_script_prints(folder):
+def test_the_page_shows_what_its_scripts_print(folder):
     blocks = code_blocks((ROOT / "docs" / "howto" / "javascript.md").read_text(encoding="utf-8"))
-    script, printed = next(pair for pair in pairwise(blocks) if pair[0].language == "js")
-    (folder / "page.mjs").write_text(script.code, encoding="utf-8")
-    done = subprocess.run(["node", "page.mjs"], cwd=folder, capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == printed.code.strip()
+    pairs = [pair for pair in pairwise(blocks) if pair[0].language == "js"]
+    assert len(pairs) == 2
+    for script, printed in pairs:
+        (folder / "page.mjs").write_text(script.code, encoding="utf-8")
+        done = subprocess.run(["node", "page.mjs"], cwd=folder, capture_output=True, text=True, check=True)
+        assert done.stdout.strip() == printed.code.strip()
+
+
+# -- Other solids ----------------------------------------------------------------------------------------------------
+
+
+def told(solid):
+    """A solid as JavaScript is told of it."""
+    if isinstance(solid, pl.Cone):
+        return {"kind": "cone", "halfAngle": solid.half_angle, "tipRadius": solid.tip_radius}
+    if isinstance(solid, pl.Paraboloid):
+        return {"kind": "paraboloid", "tipRadius": solid.tip_radius}
+    if isinstance(solid, pl.Disc):
+        return {"kind": "disc", "radius": solid.radius, "pinned": solid.pinned}
+    return {"kind": "sphere", "radius": "plane" if math.isinf(solid) else float(solid)}
+
+
+def question_of_solids(ask, pair, *numbers, **control):
+    angles = [float(angle) for angle in pair.contact_angles]
+    given = {"solids": [told(solid) for solid in pair.solids], "contactAngle": angles}
+    return {"ask": ask, "given": [given, *numbers, {"surfaceTension": TENSION, **control}]}
+
+
+def random_solid(rng):
+    size, half = float(10.0 ** rng.uniform(-6.0, -4.0)), float(rng.uniform(0.3, 1.5))
+    cones = pl.Cone(half), pl.Cone(half, size)
+    others = pl.Paraboloid(size), pl.Disc(size), pl.Disc(size, pinned=True), size, math.inf
+    return [*cones, *others][rng.integers(7)]
+
+
+def random_pair_of_solids(rng):
+    while True:
+        solids = random_solid(rng), random_solid(rng)
+        if not all(isinstance(solid, float) for solid in solids):
+            return pl.Pair(solids, tuple(rng.uniform(0.05, 1.7, 2).tolist()))
+
+
+@NODE
+@pytest.mark.filterwarnings("ignore::pendular.ConvergenceWarning")
+@pytest.mark.parametrize("control", ["suction", "volume"])
+def test_numbers_of_other_solids_are_those_of_python(answers_of, control):
+    print(f"seed {SEED}")
+    rng, liquid, asked, bridges = np.random.default_rng(SEED + 4), pl.Liquid(surface_tension=TENSION), [], []
+    for _ in range(60):
+        pair = random_pair_of_solids(rng)
+        size = 10.0 ** rng.uniform(-6.0, -4.5)
+        given = {control: float(TENSION / size if control == "suction" else size**3)}
+        end = pl.rupture(pair, **given, liquid=liquid)
+        asked.append(question_of_solids("rupture", pair, **given))
+        bridges.append(end)
+        for part in (0.2, 0.9, 1.1) if end.exists else ():
+            gap = part * float(end.separation)
+            asked.append(question_of_solids("bridge", pair, gap, **given))
+            bridges.append(pl.bridge(pair, gap, **given, liquid=liquid))
+    found, stood = answers_of(asked, "ask_solids.mjs"), 0
+    for answer, bridge, given in zip(found, bridges, asked, strict=True):
+        if isinstance(answer, str):  # neither found nor excluded
+            assert answer.startswith("Error: the ")
+            assert math.isnan(bridge.force)
+            continue
+        assert (answer is not None) == bool(bridge.exists)
+        if answer is not None:
+            stood += 1
+            assert_same(answer, bridge, {"stiffness", "unstableDirections"} if given["ask"] == "rupture" else set())
+    print(f"{stood} bridges")
+    assert stood > 60
+
+
+@NODE
+@pytest.mark.filterwarnings("ignore::pendular.ConvergenceWarning")
+def test_curves_and_outlines_of_other_solids_are_those_of_python(answers_of):
+    print(f"seed {SEED}")
+    rng, liquid, asked, curves = np.random.default_rng(SEED + 5), pl.Liquid(surface_tension=TENSION), [], []
+    for _ in range(16):
+        pair = random_pair_of_solids(rng)
+        given = {"volume": float(10.0 ** rng.uniform(-17.0, -14.0))}
+        curves.append((pair, given, pl.curve(pair, **given, liquid=liquid, points=21)))
+        asked.append(question_of_solids("curve", pair, **given))
+        asked[-1]["given"].append(21)
+    drawn, profiles = 0, []
+    for (pair, given, wanted), states in zip(curves, answers_of(asked, "ask_solids.mjs"), strict=True):
+        exists = wanted.exists.tolist()
+        if isinstance(states, str):
+            assert not any(exists)
+            continue
+        assert [state is not None for state in states] == (exists if states else [])
+        forces = [state["force"] for state in states if state]
+        scale = np.max(np.abs(wanted.force[wanted.exists]), initial=0.0)
+        np.testing.assert_allclose(forces, wanted.force[wanted.exists], rtol=1e-9, atol=1e-9 * scale)
+        drawn += len(forces)
+        if states and states[3]:
+            profiles.append((pair, given, states[3]))
+    assert drawn > 150
+    asked = [question_of_solids("profile", pair, state, 33) for pair, _, state in profiles]
+    for one in asked:
+        del one["given"][-1]
+    checked = 0
+    for (pair, given, state), outline in zip(profiles, answers_of(asked, "ask_solids.mjs"), strict=True):
+        own = pl.bridge(pair, state["separation"], **given, liquid=liquid)
+        if not own.exists or abs(own.contact_radius[0] / state["contactRadius"][0] - 1.0) > 1e-6:
+            continue  # another bridge has less energy
+        profile, scale = own.profile(33), float(np.max(own.contact_radius))
+        np.testing.assert_allclose(outline["x"], profile.x, rtol=1e-8, atol=1e-8 * scale)
+        np.testing.assert_allclose(outline["y"], profile.y, rtol=1e-8)
+        checked += 1
+    assert checked > 4
+
+
+@NODE
+def test_what_is_no_question_about_other_solids_is_refused(answers_of):
+    disc, plate = pl.Disc(1e-5), math.inf
+    flat, good = pl.Pair((disc, plate), 0.5), pl.Pair((pl.Cone(1.0), plate), 0.5)
+    refused = [
+        question_of_solids("bridge", flat, 0.0, volume=1e-15),
+        question_of_solids("bridge", good, -1e-9, volume=1e-15),
+        question_of_solids("bridge", good, 1e-9, volume=0.0),
+        question_of_solids("rupture", pl.Pair((pl.Cone(1.0), plate), 0.5), volume=-1.0),
+    ]
+    unknown = question_of_solids("bridge", good, 1e-9, volume=1e-15)
+    unknown["given"][0]["solids"][0] = {"kind": "cube", "radius": 1e-5}
+    found = answers_of([*refused, unknown], "ask_solids.mjs")
+    assert found[:-1] == ["RangeError: solids, separation, suction or volume: out of range"] * len(refused)
+    assert found[-1] == "TypeError: solids: 'cube' is not one of sphere,cone,paraboloid,disc,pinned disc"
 
 
 @NODE
@@ -303,10 +433,11 @@ def test_what_is_no_question_is_refused(answers_of):
 
 
 def test_the_module_is_small_and_asks_its_host_for_elementary_functions_alone(folder):
-    assert (folder / wasm.MODULE).stat().st_size < 150e3
-    script = (folder / wasm.SCRIPT).read_text()
-    assert f"by Pendular {pl.__version__} " in script
-    assert "$${" not in script
+    for module, script in ((wasm.MODULE, wasm.SCRIPT), (wasm.SOLIDS_MODULE, wasm.SOLIDS_SCRIPT)):
+        assert (folder / module).stat().st_size < 150e3
+        text = (folder / script).read_text()
+        assert f"by Pendular {pl.__version__} " in text
+        assert "$${" not in text
 
 
 def test_what_is_missing_is_told_in_one_line(tmp_path, monkeypatch):

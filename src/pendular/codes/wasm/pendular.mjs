@@ -13,24 +13,29 @@
 //
 // Copyright (c) 2026, the Pendular developers. SPDX-License-Identifier: BSD-3-Clause. Without any warranty.
 
-const FIELDS = ${fields};
+export const FIELDS = ${fields};
 const AT = Object.fromEntries(FIELDS.map((name, i) => [name, i]));
-const [FOUND, NO_BRIDGE, FAILED] = [0, 1, 2];
+export const [FOUND, NO_BRIDGE, FAILED] = [0, 1, 2];
 const CONTROLS = ["suction", "volume"];
 const IMPORTS = ["acos", "asin", "atan", "atan2", "cos", "exp", "hypot", "log", "log1p", "pow", "sin", "tan"];
 const PAIR_NUMBERS = 5;
 const MOST_NODES = ${most_nodes}; // on the way along a branch
 const NODE_NUMBERS = 4;
 const RATES = ["separation", "held", "logRadius1", "cosAngle1", "logRadius2", "cosAngle2"];
-const BYTES = 8;
+export const BYTES = 8;
 const LAW = /^law_(.+)_(force|rupture)$$/;
 
 /** The solver, from the bytes or the address of its module; else from the file beside this one. */
 export async function load(source = new URL("pendular.wasm", import.meta.url)) {
+  return solver(await exportsOf(source));
+}
+
+/** What a module answers, from its bytes or its address. */
+export async function exportsOf(source) {
   const bytes = source instanceof URL || typeof source === "string" ? await bytesAt(source) : source;
   const env = Object.fromEntries(IMPORTS.map((name) => [name, Math[name]]));
   const { instance } = await WebAssembly.instantiate(bytes, { env });
-  return solver(instance.exports);
+  return instance.exports;
 }
 
 async function bytesAt(source) {
@@ -169,20 +174,20 @@ function lawsOf(module) {
   return laws;
 }
 
-function heldBy(liquid) {
+export function heldBy(liquid) {
   const given = CONTROLS.filter((name) => liquid[name] !== undefined);
   if (given.length !== 1) throw new TypeError("give suction or volume, one of them");
   return { control: CONTROLS.indexOf(given[0]), held: liquid[given[0]] };
 }
 
-function both(name, value) {
+export function both(name, value) {
   const values = Array.isArray(value) ? value : [value, value];
   if (values.length !== 2 || values.some((each) => typeof each !== "number"))
     throw new TypeError(`$${name}: give a number, or one for each solid`);
   return values;
 }
 
-function stateOf(row, angles, surfaceTension) {
+export function stateOf(row, angles, surfaceTension) {
   const energy = row[AT.area] - Math.cos(angles[0]) * row[AT.wetted_area1] - Math.cos(angles[1]) * row[AT.wetted_area2];
   return {
     separation: row[AT.separation],

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ...ground.compile import kernel
 from .. import curve, follow
 from ..algebra import Four, moved, unit_vector
+from ..bracket import MOST_NARROWINGS, Bracket, is_narrow, narrowed, secant_of
 from ..curve import Curve, Stance
 from ..equations import VOLUME
 from ..follow import FOLDS, NOTHING, Walk, recorded
@@ -32,8 +33,7 @@ _THERE = 1e-13  # miss of a separation, over ℓ, that is none
 _PROBE = 1e-4  # way from a corner to where it is certain what follows
 _AT_CORNER = 1e-9  # room that is none
 _PAST = -1e-9  # room that is lost for certain
-_NARROW = 1e-14  # room, and part of a step, within which a corner lies
-_MOST_ROUNDS = 100
+_NO_ROOM = 1e-14  # of a corner
 _FIRST, _SECOND, _SYMMETRIC, _HAND, _LEG = 4, 5, 6, 7, 8  # columns of a node behind its arc
 
 _stance_at = retold(curve.stance_at)
@@ -180,25 +180,18 @@ def _corner(question: Question, on: On, before: Four, after: Four, path: Curve) 
     at_low = least_room(question, on, best)
     if at_low <= 0.0:
         return before
-    least, low, high, side = at_low, 0.0, 1.0, 0
-    at_high = least_room(question, on, _corrected(after, path, along)[0])
-    for _ in range(_MOST_ROUNDS):
-        share = low + (high - low) * at_low / (at_low - at_high)
-        if not low < share < high:
-            share = 0.5 * (low + high)
+    least = at_low
+    bracket = Bracket(0.0, 1.0, at_low, least_room(question, on, _corrected(after, path, along)[0]), 0)
+    for _ in range(MOST_NARROWINGS):
+        share = secant_of(bracket)
+        if not bracket.low < share < bracket.high:
+            share = 0.5 * (bracket.low + bracket.high)
         z = _corrected(moved(before, share, way), path, along)[0]
         room = least_room(question, on, z)
         if abs(room) < abs(least):
             best, least = z, room
-        if room > 0.0:
-            low, at_low = share, room
-            at_high *= 0.5 if side > 0 else 1.0
-            side = 1
-        else:
-            high, at_high = share, room
-            at_low *= 0.5 if side < 0 else 1.0
-            side = -1
-        if abs(room) < _NARROW or high - low < _NARROW:
+        bracket = narrowed(bracket, share, room)
+        if abs(room) < _NO_ROOM or is_narrow(bracket):
             break
     return best
 

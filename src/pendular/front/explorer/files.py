@@ -1,13 +1,14 @@
 """The page as files: one of HTML with style, words, solver, laws and fit, one of the heap, and one for use offline.
 
 Nothing is a module for the browser, which loads none from a disk: the pair is in the file of HTML, the view of a heap
-in a plain script that is loaded when it is first asked for.
+in a plain script that is loaded when it is first asked for, as is the solver of other solids than spheres and planes.
 """
 
 import base64
 import hashlib
 import json
 import re
+from collections.abc import Callable
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -24,8 +25,8 @@ __all__ = ["as_one", "module_of_page", "page_files", "write_page"]
 
 # Each after those that it imports.
 _MODULES = (
-    *("units", "liquids", "view", "answer", "tracks", "picture", "chart", "map", "words", "fields", "views"),
-    *("general", "curve_text", "fit_chart", "fit_words", "fit_panel", "main"),
+    *("units", "kinds", "liquids", "view", "answer", "tracks", "picture", "chart", "map", "words", "fields", "views"),
+    *("general", "curve_text", "fit_chart", "fit_words", "fit_panel", "solids_panel", "main"),
 )
 _HEAP_MODULES = (
     *("grains", "pairs", "wetted", "curves", "space", "raster", "scene"),
@@ -42,8 +43,11 @@ _EXPORT = re.compile(r"^export (?=async |const |function )", re.MULTILINE)
 _HOLE = re.compile(r"\{(\w+)\}")
 
 
-def page_files() -> dict[str, bytes]:
-    """Files of the page by their names.
+SOLIDS = "solids.js"
+
+
+def page_files() -> dict[str, bytes | Callable[[], bytes]]:
+    """Files of the page by their names; one that few ask for is made when it is.
 
     Raises
     ------
@@ -65,13 +69,20 @@ def page_files() -> dict[str, bytes]:
     return {
         "index.html": page,
         "heap.js": heap,
+        SOLIDS: _solids,
         "offline.js": _filled("offline.js", digest=digest).encode(),
     }
 
 
+def _solids() -> bytes:
+    """The script that brings the solver of other solids."""
+    return f'globalThis.PENDULAR_SOLIDS = "{base64.b64encode(wasm.solids_module()).decode()}";\n'.encode()
+
+
 def write_page(folder: Path) -> list[Path]:
     """Write the page into a folder, which is made if it is not there."""
-    return write_folder(folder, page_files())
+    contents = {name: content if isinstance(content, bytes) else content() for name, content in page_files().items()}
+    return write_folder(folder, contents)
 
 
 def _script(module: bytes) -> str:
@@ -79,6 +90,7 @@ def _script(module: bytes) -> str:
     encoded = base64.b64encode(module).decode()
     return as_one(
         wasm.script(),
+        wasm.solids_script(),
         _told("RECORDS", records()),
         f'const MODULE = Uint8Array.from(atob("{encoded}"), (letter) => letter.charCodeAt(0));',
         f"const SHARED = () => ({{ {_shared_names()} }});",

@@ -2,9 +2,10 @@
 
 import gzip
 import webbrowser
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import cached_property
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
-from typing import Any, NamedTuple
+from typing import Any
 from urllib.parse import urlsplit
 
 import typer
@@ -16,10 +17,22 @@ __all__ = ["serve", "server_of"]
 _TYPES = {"html": "text/html; charset=utf-8", "js": "text/javascript; charset=utf-8"}
 
 
-class _File(NamedTuple):
-    kind: str
-    content: bytes
-    packed: bytes
+class _File:
+    """A file, which may be made when it is first asked for."""
+
+    def __init__(self, name: str, content: bytes | Callable[[], bytes]) -> None:
+        self.kind = _TYPES[name.rpartition(".")[2]]
+        self._content = content
+
+    @cached_property
+    def content(self) -> bytes:
+        """What it holds."""
+        return self._content if isinstance(self._content, bytes) else self._content()
+
+    @cached_property
+    def packed(self) -> bytes:
+        """The same in fewer bytes."""
+        return gzip.compress(self.content)
 
 
 def serve(host: str, port: int, *, open_browser: bool) -> None:
@@ -50,7 +63,7 @@ def serve(host: str, port: int, *, open_browser: bool) -> None:
             typer.echo()
 
 
-def server_of(host: str, port: int, contents: Mapping[str, bytes]) -> ThreadingHTTPServer:
+def server_of(host: str, port: int, contents: Mapping[str, bytes | Callable[[], bytes]]) -> ThreadingHTTPServer:
     """Server of files by their names, of which ``index.html`` answers the bare address.
 
     Raises
@@ -58,10 +71,7 @@ def server_of(host: str, port: int, contents: Mapping[str, bytes]) -> ThreadingH
     ValueError
         If the port cannot be used.
     """
-    known = {
-        f"/{name}": _File(_TYPES[name.rpartition(".")[2]], content, gzip.compress(content))
-        for name, content in contents.items()
-    }
+    known = {f"/{name}": _File(name, content) for name, content in contents.items()}
     known["/"] = known["/index.html"]
     try:
         return ThreadingHTTPServer((host, port), lambda *request: _Answer(known, *request))
@@ -85,7 +95,11 @@ class _Answer(BaseHTTPRequestHandler):
             self.send_error(404)
             return
         is_packed = "gzip" in self.headers.get("Accept-Encoding", "")
-        content = found.packed if is_packed else found.content
+        try:
+            content = found.packed if is_packed else found.content
+        except ValueError as error:
+            self.send_error(500, str(error))
+            return
         self.send_response(200)
         self.send_header("Content-Type", found.kind)
         self.send_header("Content-Length", str(len(content)))

@@ -20,7 +20,8 @@ const SLACK = 1e-12; // of an angle of 40° in radians, say
  */
 export function answerTo(view, solver, before, isMoving = false) {
   const question = questionOf(view);
-  const key = JSON.stringify([question.pair.radius.map(String), question.degrees, question.held, question.control]);
+  const { pair, degrees, held, control } = question;
+  const key = JSON.stringify([pair.radius.map(String), pair.solids ?? null, degrees, held, control]);
   const isKnown = before?.branch.key === key && (before.branch.isWhole || isMoving);
   const branch = isKnown ? before.branch : branchOf(question, solver, key, isMoving);
   const state = unlessFailed(() => solver.bridge(question.pair, question.separation, question.held), undefined);
@@ -36,9 +37,9 @@ function branchOf(question, solver, key, isMoving) {
   const { pair, held } = question;
   const rupture = unlessFailed(() => solver.rupture(pair, held), null);
   const lowerEnd = rupture ? unlessFailed(() => solver.lowerEnd(pair, held), null) : null;
-  const isWhole = !(isMoving && timeOfCurve > SLOW) || question.arePlanes || !rupture;
-  const states = isWhole ? wholeCurve(question, rupture, solver) : stableCurve(question, rupture, lowerEnd, solver);
-  return { key, rupture, lowerEnd, isWhole, curve: states.filter((state) => state !== null), lawCurves: new Map() };
+  const isShort = isMoving && timeOfCurve > SLOW && rupture && !question.arePlanes && !pair.solids;
+  const states = isShort ? stableCurve(question, rupture, lowerEnd, solver) : wholeCurve(question, rupture, solver);
+  return { key, rupture, lowerEnd, isWhole: !isShort, curve: states.filter((state) => state !== null), lawCurves: new Map() };
 }
 
 function wholeCurve({ pair, held }, rupture, solver) {
@@ -92,7 +93,7 @@ const forceUnit = ({ held, meanRadius }) => 2 * Math.PI * held.surfaceTension * 
 
 /** Force of a law where there is an exact bridge, [N]; NaN where it says nothing, or does not speak of the solids. */
 export function forceOfLaw(law, question, state, solver) {
-  if (uncovered(law, "force", question)) return NaN;
+  if (question.pair.solids || uncovered(law, "force", question)) return NaN;
   const control = ownControl(law, question) ? controlStar(question) : otherControl(question, state, solver);
   const gap = state.separation / question.meanRadius;
   return forceUnit(question) * solver.laws[law.name].force(gap, control, ...solidsOf(question));
@@ -115,6 +116,7 @@ function lawAt(law, answer, solver) {
   const { question, state, rupture } = answer;
   const told = { law, forceError: NaN, ruptureError: NaN, outside: "" };
   if (question.arePlanes) return { ...told, outside: "two planes are none of its solids" };
+  if (question.pair.solids) return { ...told, outside: "it is for spheres and planes" };
   const solids = solidsOf(question);
   const isOwn = ownControl(law, question);
   const functions = solver.laws[law.name];
@@ -145,7 +147,7 @@ function lawAt(law, answer, solver) {
 
 function lawCurve(law, question, rupture, solver) {
   const functions = solver.laws[law.name];
-  if (!functions.force || question.arePlanes || uncovered(law, "force", question)) return [];
+  if (!functions.force || question.arePlanes || question.pair.solids || uncovered(law, "force", question)) return [];
   const isOwn = ownControl(law, question);
   const solids = solidsOf(question);
   const last =
@@ -242,7 +244,11 @@ export function percent(error) {
 
 /** Where the solver failed, the Kelvin equation is doubtful, or a humidity does not fix the force. */
 function noticesOf({ question, state, isFailure }, solver) {
-  if (isFailure) return ["The solver found no answer to this question, and nothing is known of this bridge."];
+  if (isFailure)
+    return [
+      "The solver found no answer to this question, and nothing is known of this bridge." +
+        (question.pair.solids ? " Its liquid may run over the edges of two discs, which is not answered." : ""),
+    ];
   if (question.control !== "humidity" || !state) return [];
   const { doubtfulRadius, humidityUncertainty, largeChange } = RECORDS.kelvin;
   const told = [];

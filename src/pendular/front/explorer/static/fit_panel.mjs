@@ -88,7 +88,7 @@ export function fitPanel({ answerNow, change, solver, module, save }) {
 
   /** A curve that is made here, of a bridge that is known, with noise. */
   function giveExample() {
-    const water = { radius: "1 mm", radius2: "1 mm", "contact-angle": "10°", "contact-angle2": "" };
+    const water = { kind: "sphere", kind2: "sphere", radius: "1 mm", radius2: "1 mm", "contact-angle": "10°", "contact-angle2": "" };
     const liquid = { liquid: FIRST_VIEW.liquid, temperature: FIRST_VIEW.temperature, "surface-tension": "" };
     change("value", { ...water, ...liquid, control: "volume", value: "5 nL", separation: "50 µm" });
     curveText.value = exampleText(solver);

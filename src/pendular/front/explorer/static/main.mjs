@@ -4,21 +4,22 @@ import { answerTo, heldInstead, lawsAt, percent } from "./answer.mjs";
 import { chartOf, lawLine } from "./chart.mjs";
 import { fieldBox, markRight, markWrong } from "./fields.mjs";
 import { fitPanel } from "./fit_panel.mjs";
+import { solverOfAll } from "./kinds.mjs";
 import { liquidNames } from "./liquids.mjs";
 import { drawMap, MAP_DEGREES, MAP_MARGIN, mapChoices, mapFrame, mapKey, mapSides, valueAtShare } from "./map.mjs";
 import { pictureOf, solidsInWords, VIEW_BOX } from "./picture.mjs";
 import { load } from "./pendular.mjs";
 import { MODULE, RECORDS } from "./records.mjs";
+import { layOutKinds, showKinds, SOLID_LABELS } from "./solids_panel.mjs";
 import { BEYOND_RUPTURE, positionOf, trackOf, valueAt, valueOf, written } from "./tracks.mjs";
 import { show } from "./units.mjs";
 import { asksForHeap, closeHeap, heapLink, openHeap } from "./views.mjs";
-import { FIRST_VIEW, hashOf, HELD, isPlane, startingValue, viewAt } from "./view.mjs";
+import { FIRST_VIEW, hashOf, HELD, startingValue, viewAt } from "./view.mjs";
 import { commandOf, csvOf, numbersOf, plainText, programOf, spoken, tilesOf } from "./words.mjs";
 
 const LABELS = {
   separation: "Separation",
-  radius: "Radius 1",
-  radius2: "Radius 2",
+  ...SOLID_LABELS,
   "contact-angle": "Contact angle 1",
   "contact-angle2": "Contact angle 2",
   liquid: "Liquid",
@@ -32,7 +33,7 @@ const LITTLE = 80; // between two changes of tables and texts while a hand moves
 const PAUSE = 250; // after the last change: what is slow, or speaks, waits so long, [ms]
 
 const at = (id) => document.getElementById(id);
-export const exact = await load(MODULE);
+export const exact = solverOfAll(await load(MODULE));
 const fields = {};
 let answer; // what is shown
 let fitting; // the panel of a measured curve
@@ -46,6 +47,7 @@ const sizes = { chart: [0, 0], plan: [0, 0] }; // in pixels
 function layOut() {
   for (const place of document.querySelectorAll("[data-fields]"))
     for (const name of place.dataset.fields.split(" ")) place.append(fieldNamed(name));
+  layOutKinds(() => ahead?.view ?? answer.view, change);
   choice("control", HELD, hold);
   choice("source", [BY_NAME, GIVEN], giveLiquid);
   options(
@@ -103,9 +105,6 @@ function lawRow(law, place) {
 // -- What a person does ----------------------------------------------------------------------------------------------
 
 function listen() {
-  at("is-plane").addEventListener("change", (event) =>
-    change("radius2", { radius2: event.target.checked ? "plane" : firstRadius() }),
-  );
   at("is-same").addEventListener("change", (event) =>
     change("contact-angle2", { "contact-angle2": event.target.checked ? "" : answer.view["contact-angle"] }),
   );
@@ -132,7 +131,6 @@ function listen() {
   for (const id of Object.keys(sizes)) observer.observe(at(id));
 }
 
-const firstRadius = () => (isPlane(answer.view.radius) ? FIRST_VIEW.radius : answer.view.radius);
 const kindOf = (name) => (name === "value" ? answer.view.control : name);
 
 function slide(name, position) {
@@ -258,6 +256,10 @@ function change(field, changes) {
 
 function showAhead() {
   const { view, field } = ahead;
+  if (!exact.knows(view)) {
+    learn(field);
+    return;
+  }
   ahead = undefined;
   try {
     showAnswer(answerTo(view, exact, answer, true));
@@ -268,6 +270,17 @@ function showAhead() {
   }
   accept(field);
   showFields();
+}
+
+/** Load the solver of other solids, and show then what is ahead. */
+function learn(field) {
+  fill(at("notices"), "<p>Loading the solver of other solids …</p>");
+  exact.learn().then(showAhead, (error) => {
+    const { view } = ahead;
+    ahead = undefined;
+    refuse(field, view[field], error);
+    fill(at("notices"), "");
+  });
 }
 
 function showAnswer(next) {
@@ -319,7 +332,8 @@ function mapKeyOf({ view, question }) {
   const byControl =
     view.across === "separation" ? Object.values(question.held) : [question.separation, view.control === "volume"];
   const needsGap = view.map === "rupture" && view.across === "control" ? [view.control === "volume"] : byControl;
-  return [view.map, view.across, angle, question.pair.radius, question.held.surfaceTension, needsGap].join(" ");
+  const solids = [question.pair.radius, JSON.stringify(question.pair.solids)];
+  return [view.map, view.across, angle, ...solids, question.held.surfaceTension, needsGap].join(" ");
 }
 
 let soon;
@@ -387,13 +401,12 @@ function showFields() {
   at("plot").value = view.plot;
   at("map-choice").value = view.map;
   at("across").value = view.across;
-  at("is-plane").checked = isPlane(view.radius2);
+  showKinds(view, fields);
   at("is-same").checked = view["contact-angle2"] === "";
   for (const tick of at("laws").querySelectorAll("input")) tick.checked = view.laws.includes(tick.value);
   const label = view.control[0].toUpperCase() + view.control.slice(1);
   fields.value.label.textContent = label;
   fields.value.slider.setAttribute("aria-label", label);
-  fields.radius2.field.hidden = isPlane(view.radius2);
   fields["contact-angle2"].field.hidden = view["contact-angle2"] === "";
   fields.liquid.field.hidden = fields.temperature.field.hidden = view["surface-tension"] !== "";
   fields["surface-tension"].field.hidden = view["surface-tension"] === "";
@@ -497,7 +510,7 @@ function copyOldWay(text) {
 // -- The beginning ---------------------------------------------------------------------------------------------------
 
 /** Show the view of the address; one with a mistake is told of, and the first view is shown. */
-function begin() {
+async function begin() {
   const hash = location.hash.slice(1) || location.search.slice(1);
   if (asksForHeap(hash)) {
     leave();
@@ -508,9 +521,14 @@ function begin() {
   measure();
   let notice = "";
   try {
-    showAnswer(answerTo(viewAt(hash), exact, answer));
+    const view = viewAt(hash);
+    if (!exact.knows(view)) {
+      await exact.learn();
+      measure();
+    }
+    showAnswer(answerTo(view, exact, answer));
   } catch (error) {
-    if (!(error instanceof RangeError)) throw error;
+    if (!(error instanceof RangeError || error.constructor === Error)) throw error;
     notice = error.message;
     showAnswer(answerTo(FIRST_VIEW, exact, answer));
   }
@@ -534,6 +552,7 @@ function skip(event) {
 window.explorer = {
   picture: () => picture,
   fit: () => fitting.found(),
+  learn: exact.learn,
   answerAt(hash) {
     const answer = answerTo(viewAt(hash), exact);
     const { question, state, rupture, lowerEnd } = answer;
@@ -543,7 +562,7 @@ window.explorer = {
 };
 
 layOut();
-begin();
+await begin();
 listen();
 if ("serviceWorker" in navigator && location.protocol.startsWith("http"))
   navigator.serviceWorker.register("offline.js");

@@ -9,6 +9,7 @@ const ROWS = 60;
 const MOST_DEGREES = 90;
 const SLICE = 7; // time in one go, [ms], so that a hand on a slider is not felt
 const SPANS = { suction: [-1, 4], volume: [-7, 1] }; // of H R̄/γ and V/R̄³
+const SPANS_BY_GAP = { suction: [-5, 0], volume: [-1, 8] };
 export const MAP_MARGIN = { left: 46, right: 10, top: 8, bottom: 44 };
 
 // Light to dark, told apart without colours; and from too small over right to too large.
@@ -40,12 +41,21 @@ export function mapChoices() {
 /** Sides of the map of an answer: what a place in it means. */
 export function mapSides({ question, view, rupture }) {
   const control = question.control === "volume" ? "volume" : "suction";
+  if (question.hasSize === false && view.across !== "separation") return sidesWithoutSize(question, control);
   if (view.across === "separation") {
     const high = 1.6 * (rupture?.separation ?? 0.2 * question.meanRadius);
     return { across: "separation", control, low: 0, high, unit: 1, isLogarithmic: false };
   }
   const unit = control === "volume" ? question.meanRadius ** 3 : question.held.surfaceTension / question.meanRadius;
   const [low, high] = SPANS[control].map((decade) => 10 ** decade);
+  return { across: control, control, low, high, unit, isLogarithmic: true };
+}
+
+/** Between solids without a size it is the gap that what is held is measured by. */
+function sidesWithoutSize({ separation, meanRadius, held }, control) {
+  const length = separation > 0 ? separation : meanRadius;
+  const unit = control === "volume" ? length ** 3 : held.surfaceTension / length;
+  const [low, high] = SPANS_BY_GAP[control].map((decade) => 10 ** decade);
   return { across: control, control, low, high, unit, isLogarithmic: true };
 }
 
@@ -88,7 +98,7 @@ function valueFor({ question, view }, solver, sides) {
   return (x, degrees) => {
     const angle = degrees * (Math.PI / 180);
     const pair = {
-      radius: question.pair.radius,
+      ...question.pair,
       contactAngle: [angle, isSame ? angle : question.pair.contactAngle[1]],
     };
     const isGap = sides.across === "separation";
@@ -144,7 +154,7 @@ export function mapFrame(answer, width, height) {
   const across = (share) => left + wide * share;
   const up = (degrees) => top + high * (1 - degrees / MOST_DEGREES);
   const floor = height - bottom;
-  const marks = sides.isLogarithmic ? decades(sides) : gaps(sides);
+  const marks = sides.isLogarithmic ? decades(sides, question) : gaps(sides);
   const below = marks.ticks.map(([share, words]) => {
     const x = across(share).toFixed(1);
     return `<path class="axis" d="M${x} ${floor}v4"/><text class="tick" x="${x}" y="${floor + 17}" text-anchor="middle">${words}</text>`;
@@ -168,13 +178,14 @@ export function mapFrame(answer, width, height) {
   return { svg, now };
 }
 
-function decades({ low, high, control }) {
+function decades({ low, high, control }, { pair, hasSize }) {
   const [first, last] = [Math.round(Math.log10(low)), Math.round(Math.log10(high))];
   const step = last - first > 6 ? 2 : 1;
   const ticks = [];
   for (let decade = first; decade <= last; decade += step)
     ticks.push([(decade - first) / (last - first), `10<tspan class="power" dy="-5">${signed(String(decade))}</tspan>`]);
-  return { ticks, title: control === "volume" ? "volume V* = V/R³" : "suction H* = Δp R/γ" };
+  const length = pair.solids ? (hasSize ? "r" : "D") : "R"; // that of the smaller solid, or the gap
+  return { ticks, title: control === "volume" ? `volume V* = V/${length}³` : `suction H* = Δp ${length}/γ` };
 }
 
 function gaps({ high }) {

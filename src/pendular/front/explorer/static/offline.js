@@ -1,4 +1,4 @@
-// Keeps the page of the last visit for when there is no network.
+// Keeps the page of the last visit, and the solver of other solids once it was used, for when there is no network.
 const KEPT = "pendular {digest}";
 const FILES = ["./", "heap.js"];
 
@@ -24,7 +24,21 @@ addEventListener("activate", (event) => {
   );
 });
 
+async function solids(request) {
+  const cache = await caches.open(KEPT);
+  try {
+    const found = await fetch(request);
+    if (found.ok) await cache.put(request, found.clone());
+    return found;
+  } catch (error) {
+    const kept = await cache.match(request);
+    if (!kept) throw error;
+    return kept;
+  }
+}
+
 addEventListener("fetch", (event) => {
+  if (event.request.url.endsWith("/solids.js")) event.respondWith(solids(event.request));
   const isHeap = new URL(event.request.url).pathname.endsWith("/heap.js");
   if (event.request.mode !== "navigate" && !isHeap) return;
   event.respondWith(fetch(event.request).catch(() => caches.match(isHeap ? "heap.js" : "./", { ignoreSearch: true })));

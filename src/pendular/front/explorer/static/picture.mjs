@@ -1,5 +1,6 @@
 // The pair with its bridge, to scale, as SVG that is light enough to be redrawn in every frame.
 
+import { outlineOfSolid, pairInWords, seenRadii } from "./kinds.mjs";
 import { show } from "./units.mjs";
 
 const HALF = 100; // half the height of the drawing, in its own units
@@ -31,9 +32,11 @@ export function pictureOf(answer, solver) {
 
 export const VIEW_BOX = [-ASPECT * HALF, -HALF, 2 * ASPECT * HALF, 2 * HALF];
 
-function sceneOf({ pair }, state, gap, solver) {
+function sceneOf({ pair, meanRadius }, state, gap, solver) {
   const outline = state ? solver.profile(pair, state, OUTLINE_POINTS) : { x: [], y: [] };
-  return { radii: pair.radius, gap, x: Array.from(outline.x), y: Array.from(outline.y) };
+  const widest = state ? Math.max(...state.contactRadius) : gap || meanRadius;
+  const radii = pair.solids ? seenRadii(pair.solids, widest) : pair.radius;
+  return { radii, solids: pair.solids, gap, x: Array.from(outline.x), y: Array.from(outline.y) };
 }
 
 // -- Windows: centre and half height, [m]; 0 lies, 1 stands with the first solid below, -1 with the second ------------
@@ -63,7 +66,8 @@ function widestOf(question, rupture, curve, solver) {
   const last = sceneOf(question, rupture, rupture.separation, solver);
   const widest = Math.max(...curve.map(({ contactRadius }) => contactRadius[0]));
   const factor = (TIGHTER * widest) / Math.max(...last.y);
-  return { ...last, y: last.y.map((y) => y * factor) };
+  const radii = last.solids ? seenRadii(last.solids, TIGHTER * widest) : last.radii;
+  return { ...last, radii, y: last.y.map((y) => y * factor) };
 }
 
 /** Window on both solids; of planes, and of a far larger sphere, on the part next to the other solid. */
@@ -107,9 +111,10 @@ const clip = (value, most) => Math.min(Math.max(value, -most), most);
 // -- What is drawn ----------------------------------------------------------------------------------------------------
 
 function bodyOf(scene, window) {
+  const both = scene.solids ?? scene.radii.map((radius) => ({ kind: "sphere", radius }));
   const solids = [
-    [scene.radii[0], 0, -1],
-    [scene.radii[1], scene.gap, 1],
+    [both[0], 0, -1],
+    [both[1], scene.gap, 1],
   ].map((solid, i) => shapeOf("polygon", `solid solid${i + 1}`, window, outlineOf(...solid, window)));
   if (!scene.x.length) return solids.join("");
   const upper = scene.x.map((x, i) => [x, scene.y[i]]);
@@ -119,8 +124,13 @@ function bodyOf(scene, window) {
 }
 
 /** Closed outline of a solid with its pole on the axis and its body to one side, fine in the window. */
-function outlineOf(radius, pole, side, window) {
+function outlineOf(solid, pole, side, window) {
   const margin = 1.5 * window.half * reachOf(window)[1];
+  if (solid.kind !== "sphere") {
+    const upper = outlineOfSolid(solid, window.y + margin, 4 * window.half).map(([x, y]) => [pole + side * x, y]);
+    return [...upper, ...upper.map(([x, y]) => [x, -y]).reverse()];
+  }
+  const { radius } = solid;
   if (radius === Infinity) {
     const far = pole + side * 4 * window.half;
     const high = window.y + margin;
@@ -235,6 +245,7 @@ function wordsOf({ question, state }) {
 }
 
 export function solidsInWords({ pair, degrees }) {
+  if (pair.solids) return `${pairInWords(pair.solids)}, ${anglesInWords(degrees)}`;
   const [first, second] = pair.radius;
   const size = (radius) => show(radius, "m", 4);
   let solids = `Spheres of radius ${size(first)} and ${size(second)}`;
@@ -242,6 +253,10 @@ export function solidsInWords({ pair, degrees }) {
   else if (first === Infinity) solids = `Plate and sphere of radius ${size(second)}`;
   else if (second === Infinity) solids = `Sphere of radius ${size(first)} on a plate`;
   else if (first === second) solids = `Two spheres of radius ${size(first)}`;
+  return `${solids}, ${anglesInWords(degrees)}`;
+}
+
+function anglesInWords(degrees) {
   const [one, other] = degrees.map((angle) => `${Number(angle.toPrecision(4))}°`);
-  return `${solids}, contact angle${one === other ? ` ${one}` : `s ${one} and ${other}`}`;
+  return `contact angle${one === other ? ` ${one}` : `s ${one} and ${other}`}`;
 }

@@ -1,16 +1,28 @@
 // What the page shows: the options of the command line as texts, the address that carries them, and what they ask.
 
+import {
+  ENDINGS,
+  FIRST_SOLIDS,
+  hasOthers,
+  optionOfSolid,
+  readSolid,
+  refuseSeparation,
+  sizeOfSolids,
+  solidAt,
+} from "./kinds.mjs";
 import { liquidNamed, suctionFromHumidity } from "./liquids.mjs";
 import { RECORDS } from "./records.mjs";
 import { readDegrees, readFraction, readQuantity, rounded } from "./units.mjs";
 
 export const HELD = ["suction", "volume", "humidity"];
 const PLANE = "plane";
+const ANY_LENGTH = 1e-6; // where a question has none
 
 /** All that a person can set; an empty text is an option that is left out. */
 export const FIRST_VIEW = Object.freeze({
   radius: "50 µm",
   radius2: "50 µm",
+  ...FIRST_SOLIDS,
   "contact-angle": "20°",
   "contact-angle2": "", // as the first
   liquid: "water",
@@ -30,12 +42,14 @@ export const isPlane = (text) => text.trim().toLowerCase() === PLANE;
 
 /** Options by which the command line asks what a view shows. */
 export function optionsOf(view) {
-  const given = { radius: view.radius, radius2: view.radius2, "contact-angle": view["contact-angle"] };
+  const given = { "contact-angle": view["contact-angle"] };
   if (view["contact-angle2"]) given["contact-angle2"] = view["contact-angle2"];
   if (view["surface-tension"]) given["surface-tension"] = view["surface-tension"];
   else Object.assign(given, { liquid: view.liquid, temperature: view.temperature });
   Object.assign(given, { [view.control]: view.value, separation: view.separation });
-  return Object.fromEntries(Object.entries(given).map(([name, text]) => [name, name === "liquid" ? text : bare(text)]));
+  const solids = ENDINGS.map((ending) => optionOfSolid(view, ending));
+  const others = Object.entries(given).map(([name, text]) => [name, name === "liquid" ? text : bare(text)]);
+  return Object.fromEntries([...solids, ...others]);
 }
 
 /** What stands after the # of an address. */
@@ -44,7 +58,7 @@ export function hashOf(view) {
   for (const name of ["plot", "map", "across"]) if (view[name] !== FIRST_VIEW[name]) parts[name] = view[name];
   if (view.laws.length) parts.laws = view.laws.join(",");
   return Object.entries(parts)
-    .map(([name, text]) => `${name}=${encodeURIComponent(text).replaceAll("%2C", ",")}`)
+    .map(([name, text]) => `${name}=${encodeURIComponent(text).replaceAll("%2C", ",").replaceAll("%3A", ":")}`)
     .join("&");
 }
 
@@ -67,17 +81,30 @@ export function viewAt(hash) {
       RECORDS.laws.map((law) => law.name),
     );
   delete texts.laws;
+  takeSolids(texts, view);
   for (const [name, text] of Object.entries(texts)) {
     oneOf(
       "address",
       name,
-      Object.keys(FIRST_VIEW).filter((own) => !["control", "value", "laws"].includes(own)),
+      Object.keys(FIRST_VIEW).filter((own) => !["control", "value", "laws"].includes(own) && !(own in FIRST_SOLIDS)),
     );
     view[name] = spaced(/^contact-angle/.test(name) && /\d$/.test(text) ? `${text}°` : text);
   }
   oneOf("plot", view.plot, RECORDS.plotted);
   oneOf("across", view.across, ["control", "separation"]);
   return view;
+}
+
+/** Put the solids of an address into a view; the second is as the first, if that is no sphere and none is told. */
+function takeSolids(texts, view) {
+  if ("solid" in texts && !("solid2" in texts || "radius2" in texts)) texts.solid2 = texts.solid;
+  for (const ending of ENDINGS) {
+    const [radius, solid] = [`radius${ending}`, `solid${ending}`];
+    if (!(solid in texts)) continue;
+    if (radius in texts) throw new RangeError(`${solid}: given together with ${radius}; one of the two is needed`);
+    Object.assign(view, solidAt(texts[solid], ending));
+    delete texts[solid];
+  }
 }
 
 export function oneOf(name, value, known) {
@@ -102,7 +129,8 @@ export function spaced(text) {
 
 /** The question of a view in SI units; RangeError in one line for what cannot be meant. */
 export function questionOf(view) {
-  const radius = [readRadius("radius", view.radius), readRadius("radius2", view.radius2)];
+  const solids = ENDINGS.map((ending) => readSolid(view, ending, readRadius));
+  const radius = solids.map((solid) => solid.radius ?? solid.tipRadius);
   const first = readContactAngle("contact-angle", view["contact-angle"]);
   const second = view["contact-angle2"] ? readContactAngle("contact-angle2", view["contact-angle2"]) : first;
   const liquid = readLiquid(view);
@@ -124,8 +152,22 @@ export function questionOf(view) {
     meanRadius: small === Infinity ? Infinity : (2 * small) / (1 + small / large),
     arePlanes: small === Infinity,
   };
+  if (hasOthers(view)) return { ...question, ...betweenSolids(question, solids) };
   refuseBeyondDomain(question);
   return question;
+}
+
+/** What of a question is another between solids of which one is neither a sphere nor a plane. */
+function betweenSolids({ pair, held, separation }, solids) {
+  refuseSeparation(solids, separation);
+  const size = sizeOfSolids(solids);
+  const own = held.volume ? Math.cbrt(held.volume) : held.surfaceTension / Math.abs(held.suction);
+  return {
+    pair: { ...pair, solids },
+    meanRadius: size > 0 ? size : own < Infinity ? own : separation || ANY_LENGTH,
+    hasSize: size > 0,
+    arePlanes: false,
+  };
 }
 
 function readRadius(name, text) {

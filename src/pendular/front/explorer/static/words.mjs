@@ -1,6 +1,7 @@
 // Pieces of the page as HTML: the answer in a line, the table of numbers, what can be taken away.
 
 import { solidsInWords } from "./picture.mjs";
+import { solidInPython } from "./kinds.mjs";
 import { RECORDS } from "./records.mjs";
 import { show, rounded } from "./units.mjs";
 import { fieldOf } from "./chart.mjs";
@@ -107,7 +108,8 @@ export function programOf({ question }) {
 /** Lines of a program that make the pair and the liquid. */
 export function solidsInPython({ pair, degrees, liquid }) {
   const both = (first, second) => (first === second ? first : `(${first}, ${second})`);
-  const radii = both(...pair.radius.map((radius) => (radius === Infinity ? "np.inf" : python(radius))));
+  const solids = pair.solids ?? pair.radius.map((radius) => ({ radius }));
+  const radii = both(...solids.map((solid) => solidInPython(solid, python)));
   const angles = both(...degrees.map((angle) => `np.deg2rad(${python(rounded(angle, 15))})`));
   const wetting =
     liquid.temperature === undefined
