@@ -45,7 +45,7 @@ const solver = await load();
 const heapOf = (asked) => (asked.name ? packingNamed(asked.name, asked.radius) : grainsOf(asked.text, asked.unit));
 const ASKS = {
   state(asked) {
-    const setting = settingOf(heapOf(asked), asked.angle, asked.tension, asked.suction, solver);
+    const setting = settingOf(heapOf(asked), asked.angle, asked.tension, asked.suction, solver, asked.condensation);
     const answers = answersAt(setting, asked.suction, solver);
     const members = membersOf(answers, asked.path);
     const pairs = members.map((row) => [setting.pairs.first[row], setting.pairs.second[row]]);
@@ -130,10 +130,11 @@ def test_water_and_stress_are_those_of_python(answers_of):
         suction = float(10.0 ** rng.uniform(-0.5, 2.3) * liquid.surface_tension / np.mean(heap.radii))
         for path in ("drying", "wetting"):
             held = {"angle": angle, "tension": liquid.surface_tension, "suction": suction, "path": path}
+            held["condensation"] = condensation = bool(rng.random() < 0.7)
             asked.append({"ask": "state", "text": lines_of(heap), "unit": "m", **held})
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", pl.PackingWarning)  # of the shaken ones, on purpose
-                wanted.append(pl.wet(heap, angle, suction=suction, liquid=liquid, path=path))
+                wanted.append(pl.wet(heap, angle, suction=suction, liquid=liquid, path=path, condensation=condensation))
     bridges = differ = meeting = 0
     for question, found, w in zip(asked, answers_of(asked), wanted, strict=True):
         assert isinstance(found, dict), (found, question["suction"])
@@ -258,7 +259,7 @@ def test_units_are_those_typed(answers_of):
 @pytest.mark.needs("data")
 def test_the_program_gives_the_same_numbers(answers_of, tmp_path, monkeypatch, capsys):
     grains = "packing=mixed&radius=80um&contact-angle=35&liquid=ethanol&temperature=25degC"
-    hash = f"view=heap&{grains}&suction=4kPa&path=wetting"
+    hash = f"view=heap&{grains}&suction=4kPa&path=wetting&condensation=no"
     (found,) = answers_of([{"ask": "view", "hash": hash}])
     assert found["hash"] == hash
     (lines,) = answers_of([{"ask": "lines", "name": "mixed", "radius": 80e-6}])

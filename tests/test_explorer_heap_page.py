@@ -122,9 +122,14 @@ def test_history_is_told_and_coloured(desk):
     before = desk.picture()
     desk.choose("wetting")
     expect_state(desk, wetting)
-    playwright.expect(note).to_have_text("as on wetting")
+    playwright.expect(note).to_have_text(f"{len(drying.bridges)} on drying")
     desk.page.wait_for_url("**&path=wetting*")
     assert desk.picture() != before
+    desk.page.get_by_role("checkbox", name="Bridges also condense").uncheck()
+    dry = pl.wet(packed("loose", 50e-6), ANGLE, suction=15e3, liquid=WATER, path="wetting", condensation=False)
+    assert len(dry.bridges) < 0.8 * len(wetting.bridges)
+    expect_state(desk, dry)
+    desk.page.wait_for_url("**&path=wetting&condensation=no*")
 
 
 def test_other_grains_liquids_and_angles(desk):

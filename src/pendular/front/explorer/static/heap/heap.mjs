@@ -126,6 +126,9 @@ export function makeHeap() {
     at("clear").addEventListener("change", (event) =>
       change("suction", { grains: event.target.checked ? "clear" : "solid" }),
     );
+    at("condensation").addEventListener("change", (event) =>
+      change("suction", { condensation: event.target.checked ? "yes" : "no" }),
+    );
     at("use").addEventListener("click", () => useOwn(at("text").value));
     at("file").addEventListener("click", () => (at("file").value = "")); // the same file may have changed
     at("file").addEventListener("change", (event) => readFile(event.target.files[0]));
@@ -366,6 +369,7 @@ export function makeHeap() {
       for (const radio of document.querySelectorAll(`[name=${name}]`)) radio.checked = radio.value === value;
     at("plot").value = view.plot;
     at("clear").checked = view.grains === "clear";
+    at("condensation").checked = view.condensation === "yes";
     fields.radius.field.hidden = view.packing === OWN;
     fields.liquid.field.hidden = fields.temperature.field.hidden = view["surface-tension"] !== "";
     fields["surface-tension"].field.hidden = view["surface-tension"] === "";

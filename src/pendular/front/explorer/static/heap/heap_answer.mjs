@@ -15,6 +15,7 @@ export function heapAnswerTo(view, own, solver, before) {
   const isSame =
     before?.question.heap === heap &&
     before.question.angle === angle &&
+    before.question.condensation === question.condensation &&
     before.question.liquid.surfaceTension === liquid.surfaceTension &&
     before.setting.leastSuction <= suction;
   const setting = isSame ? before.setting : widestSetting(question, solver);
@@ -61,9 +62,9 @@ export function usualSuction(view, own) {
 }
 
 /** The setting for the suction and for the curve, as far down as the cell lets bridges reach. */
-function widestSetting({ heap, angle, liquid, suction }, solver) {
+function widestSetting({ heap, angle, liquid, suction, condensation }, solver) {
   const unit = liquid.surfaceTension / heap.meanRadius;
-  const asked = (least) => settingOf(heap, angle, liquid.surfaceTension, least, solver);
+  const asked = (least) => settingOf(heap, angle, liquid.surfaceTension, least, solver, condensation);
   for (let low = REDUCED[0] * unit; low < suction; low *= RAISED) {
     try {
       return Object.assign(asked(low), { curveFrom: low });

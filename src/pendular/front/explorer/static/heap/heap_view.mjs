@@ -20,6 +20,7 @@ export const FIRST_HEAP = Object.freeze({
   "surface-tension": "", // if given, instead of liquid and temperature
   suction: "15 kPa",
   path: "drying",
+  condensation: "yes",
   plot: "saturation",
   grains: "solid",
   seen: seenText(FIRST_TURN),
@@ -27,6 +28,7 @@ export const FIRST_HEAP = Object.freeze({
 const CHOICES = {
   packing: () => [...packingNames(), OWN],
   path: () => PATHS,
+  condensation: () => ["yes", "no"],
   plot: () => plotted(),
   grains: () => ["solid", "clear"],
 };
@@ -63,7 +65,7 @@ export function heapHashOf(view) {
   if (view["surface-tension"]) parts["surface-tension"] = bare(view["surface-tension"]);
   else Object.assign(parts, { liquid: view.liquid, temperature: bare(view.temperature) });
   parts.suction = bare(view.suction);
-  for (const name of ["path", "plot", "grains", "seen"]) if (view[name] !== FIRST_HEAP[name]) parts[name] = view[name];
+  for (const name of ["path", "condensation", "plot", "grains", "seen"]) if (view[name] !== FIRST_HEAP[name]) parts[name] = view[name];
   const words = Object.entries(parts).map(
     ([name, text]) => `${name}=${encodeURIComponent(text).replaceAll("%2C", ",")}`,
   );
@@ -90,7 +92,7 @@ export function heapQuestionOf(view, own) {
   const heap = view.packing === OWN ? ownHeap(own) : readPacking(view);
   const most = (RECORDS.domain.mostSuction * liquid.surfaceTension) / heap.mostRadius;
   if (suction > most) throw new RangeError(`suction: '${view.suction}' is not <= ${show(most, "Pa", 3)} for these grains`);
-  return { heap, degrees, angle: (degrees * Math.PI) / 180, liquid, suction };
+  return { heap, degrees, angle: (degrees * Math.PI) / 180, liquid, suction, condensation: view.condensation === "yes" };
 }
 
 function ownHeap(own) {

@@ -2,6 +2,7 @@
 
 import { quantityNamed } from "./heap_view.mjs";
 import { HEAP_RECORDS } from "./heap_records.mjs";
+import { membersOf } from "./wetted.mjs";
 import { rounded, show } from "../units.mjs";
 import { python, tile } from "../words.mjs";
 
@@ -16,12 +17,13 @@ function shown(name, value) {
 }
 
 /** Water, bridges and stress, large. */
-export function heapTilesOf({ values, bridges }) {
+export function heapTilesOf({ view, values, bridges, answers }) {
   const kept = bridges.filter(({ isKept }) => isKept).length;
-  const drying = kept ? `${kept} on drying alone` : "as on wetting";
+  const onDrying = kept ? `${kept} on drying alone` : "as on wetting";
+  const other = view.path === "drying" ? onDrying : `${membersOf(answers, "drying").length} on drying`;
   return [
     tile("saturation", "Saturation", percent(values.saturation), `${show(values.liquid_volume, "m^3", 4)} of liquid`),
-    tile("bridges", "Bridges", String(values.bridges), drying),
+    tile("bridges", "Bridges", String(values.bridges), other),
     tile("force", "Suction stress", show(values.suction_stress, "Pa", 4), `mean force ${show(values.mean_force, "N", 4)}`),
   ].join("");
 }
@@ -80,6 +82,7 @@ export function heapCsvOf({ suctions, branches }) {
 /** Program that prints the same numbers for the grains of a file, and the same curves. */
 export function heapProgramOf({ question, view }, range, points) {
   const { heap, degrees, liquid, suction } = question;
+  const dry = question.condensation ? "" : ", condensation=False";
   const wetting =
     liquid.temperature === undefined
       ? `pl.Liquid(surface_tension=${python(liquid.surfaceTension)})`
@@ -93,11 +96,11 @@ export function heapProgramOf({ question, view }, range, points) {
     `heap = pl.Packing(grains[:, :3], grains[:, 3]${cell})`,
     `liquid = ${wetting}`,
     `angle = np.deg2rad(${python(rounded(degrees, 15))})`,
-    `w = pl.wet(heap, angle, suction=${python(suction)}, liquid=liquid, path="${view.path}")`,
+    `w = pl.wet(heap, angle, suction=${python(suction)}, liquid=liquid, path="${view.path}"${dry})`,
     'print(f"{len(w.bridges)} bridges, saturation {w.saturation:.6e}, suction stress {w.suction_stress:.6e} Pa")',
     "",
     `suctions = np.geomspace(${python(range.low)}, ${python(range.high)}, ${points})`,
-    "curves = pl.retention(heap, angle, suctions, liquid=liquid, reversals=[])",
+    `curves = pl.retention(heap, angle, suctions, liquid=liquid, reversals=[]${dry})`,
     "print(curves.saturation.values)",
     "",
   ].join("\n");

@@ -1,7 +1,8 @@
 // A heap at a suction: which pairs hold a bridge on drying and on wetting, its water, and the stress it carries.
 //
 // As `wet` and `retention` of the package have it: a bridge stands up to its rupture; a new one forms where grains touch,
-// or where its grand potential is not above that of dry grains. Grains that overlap count as touching.
+// or, where bridges condense, where its grand potential is not above that of dry grains. Grains that overlap count as
+// touching.
 
 import { pairsOf, poresOf, takenOf } from "./pairs.mjs";
 
@@ -9,11 +10,11 @@ const ROUNDING = 1e-12; // of the cosine of an angle
 const REACH_MARGIN = 1.05; // over the rupture distance between the largest grains
 
 /** What stays the same at every suction from the least one on: the pairs that may hold a bridge, and the pores. */
-export function settingOf(heap, angle, surfaceTension, leastSuction, solver) {
+export function settingOf(heap, angle, surfaceTension, leastSuction, solver, condensation = true) {
   const largest = { radius: heap.mostRadius, contactAngle: angle };
   const end = solver.rupture(largest, { surfaceTension, suction: leastSuction });
   const pairs = pairsOf(heap, REACH_MARGIN * Math.max(0, end?.separation ?? 0));
-  return withPairs({ heap, angle, surfaceTension, leastSuction, pores: poresOf(heap, pairs) }, pairs);
+  return withPairs({ heap, angle, surfaceTension, leastSuction, condensation, pores: poresOf(heap, pairs) }, pairs);
 }
 
 /** The same with some of the pairs alone. */
@@ -29,7 +30,7 @@ function withPairs(setting, pairs) {
 
 /** What a bridge of each pair would be at a suction, from the exact solver. */
 export function answersAt(setting, suction, solver) {
-  const { pairs, solids, gaps, surfaceTension, angle, heap } = setting;
+  const { pairs, solids, gaps, surfaceTension, angle, heap, condensation } = setting;
   const rows = solver.rows(solids, gaps, { surfaceTension, suction });
   const at = Object.fromEntries(rows.fields.map((name, i) => [name, i]));
   const width = rows.fields.length;
@@ -42,7 +43,7 @@ export function answersAt(setting, suction, solver) {
     const energy = number(row, "area") - cosine * wetted + number(row, "curvature") * number(row, "volume");
     // in an overlap the potential goes on with the force of contact
     const potential = surfaceTension * energy + number(row, "force") * Math.min(0, pairs.gap[row]);
-    forms[row] = Number(pairs.gap[row] <= heap.rounding || potential <= 0);
+    forms[row] = Number(pairs.gap[row] <= heap.rounding || (condensation && potential <= 0));
   }
   return { suction, exists: rows.exists, forms, number };
 }
