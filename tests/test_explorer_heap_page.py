@@ -177,6 +177,29 @@ def test_a_bad_value_leaves_the_rest_usable(desk):
     expect_state(desk, wet(20e3))
 
 
+FAILING = """
+const instantiate = WebAssembly.instantiate;
+WebAssembly.instantiate = async (...given) => {
+  const { instance } = await instantiate.apply(WebAssembly, given);
+  const own = instance.exports.pendular_bridges;
+  const failed = (...asked) => (window.isFailing ? 2 : own(...asked));
+  return { instance: { exports: { ...instance.exports, pendular_bridges: failed } } };
+};
+"""
+
+
+def test_where_the_solver_fails_the_page_says_so(blank):
+    blank.page.add_init_script(FAILING)
+    blank.show(START)
+    blank.page.evaluate("window.isFailing = true")
+    blank.write("Suction", "20 kPa")
+    words = "the solver did not find, or exclude, the bridge"
+    playwright.expect(blank.page.locator("#wrong-heap-suction")).to_have_text(words)
+    blank.page.evaluate("window.isFailing = false")
+    blank.write("Suction", "21 kPa")
+    expect_state(blank, wet(21e3))
+
+
 # -- Turning ---------------------------------------------------------------------------------------------------------
 
 

@@ -30,7 +30,7 @@ _MODULES = (
 )
 _HEAP_MODULES = (
     *("grains", "pairs", "wetted", "curves", "space", "raster", "scene"),
-    *("heap_view", "heap_answer", "retention_chart", "heap_words", "heap"),
+    *("heap_view", "heap_answer", "retention_chart", "heap_words", "heap_hands", "heap_picture", "own_grains", "heap"),
 )
 # Those of the worker that fits, which the page reads when it needs them.
 _FIT_MODULES = (

@@ -545,7 +545,7 @@ function leave() {
 /** The settings of the view that is open get the focus; the address, which holds the view, stays. */
 function skip(event) {
   event.preventDefault();
-  at(heapLink() === undefined ? "settings" : "heap-settings").focus();
+  at(heapLink() === undefined ? "settings" : "heap-settings")?.focus();
 }
 
 /** What the page computes, for the console of a browser. */

@@ -10,7 +10,7 @@ let isHeapOpen = false;
 export const asksForHeap = (hash) => new URLSearchParams(hash).get("view") === "heap";
 
 /** Address of what the heap shows, if that is open. */
-export const heapLink = () => (isHeapOpen ? heap?.hash() : undefined);
+export const heapLink = () => (isHeapOpen ? (heap?.hash() ?? location.hash.slice(1)) : undefined);
 
 /** Show the heap of an address. */
 export async function openHeap(hash) {
@@ -19,7 +19,8 @@ export async function openHeap(hash) {
     heap ??= await loaded();
   } catch {
     loading = undefined; // it may be tried again
-    document.getElementById("view-notice").textContent = `The file ${HEAP_SCRIPT} beside this page could not be loaded.`;
+    document.getElementById("view-notice").textContent =
+      `The file ${HEAP_SCRIPT} beside this page could not be loaded.`;
     return;
   }
   document.getElementById("view-notice").textContent = "";
@@ -38,7 +39,10 @@ function turnTo(isHeap) {
   document.getElementById("pair-view").hidden = isHeap;
   const own = document.getElementById("heap-view");
   if (own) own.hidden = !isHeap;
-  for (const [id, isHere] of [["to-pair", !isHeap], ["to-heap", isHeap]]) {
+  for (const [id, isHere] of [
+    ["to-pair", !isHeap],
+    ["to-heap", isHeap],
+  ]) {
     const link = document.getElementById(id);
     if (isHere) link.setAttribute("aria-current", "page");
     else link.removeAttribute("aria-current");

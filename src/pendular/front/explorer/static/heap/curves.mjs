@@ -1,8 +1,10 @@
 // Retention of a heap: its state along the main drying and wetting branches, and the suction at which bridges meet.
 
+import { unlessFailed } from "../answer.mjs";
 import { answersAt, meetingsOf, membersOf, settingOfRows, wettedOf } from "./wetted.mjs";
 
 export const PATHS = ["drying", "wetting"];
+const UNKNOWN = { stress: Array(6).fill(NaN) }; // where the solver failed
 const PRECISION = 1e-9; // of the suction at which bridges meet, as in the package
 const SLICE = 8; // time in one go, [ms], so that a hand on a slider is not felt
 
@@ -13,7 +15,8 @@ export function suctionsBetween(low, high, count) {
 
 /** The state on both branches at a suction. */
 export function statesAt(setting, suction, solver) {
-  const answers = answersAt(setting, suction, solver);
+  const answers = unlessFailed(() => answersAt(setting, suction, solver), null);
+  if (!answers) return Object.fromEntries(PATHS.map((path) => [path, UNKNOWN]));
   return Object.fromEntries(PATHS.map((path) => [path, wettedOf(setting, answers, membersOf(answers, path))]));
 }
 
@@ -44,14 +47,14 @@ export const wholeCurvesOf = (setting, suctions, solver) =>
 function curvesOf(setting, suctions, states, solver) {
   const branches = Object.fromEntries(PATHS.map((path) => [path, states.map((state) => state[path])]));
   const limits = Object.fromEntries(
-    PATHS.map((path) => [path, limitOf(setting, suctions, branches[path], path, solver)]),
+    PATHS.map((path) => [path, unlessFailed(() => limitOf(setting, suctions, branches[path], path, solver), NaN)]),
   );
   return { suctions, branches, limits };
 }
 
 /**
- * Suction below which bridges meet, NaN if it is not between two of the suctions, [Pa]. Half-filling angles fall with the
- * suction and no bridge is added, so that those count alone that meet at the lower suction.
+ * Suction below which bridges meet, NaN if it is not between two of the suctions, [Pa]. Half-filling angles fall with
+ * the suction and no bridge is added, so that those count alone that meet at the lower suction.
  */
 function limitOf(setting, suctions, states, path, solver) {
   const last = states.findLastIndex((state) => state.meeting_grains > 0);

@@ -31,7 +31,10 @@ export function grainsOf(text, unitText) {
   const places = []; // as they are written
   let cell = null;
   for (const [i, line] of text.split(/\r\n?|\n/).entries()) {
-    const words = line.trim().split(/[\s,;]+/).filter(Boolean);
+    const words = line
+      .trim()
+      .split(/[\s,;]+/)
+      .filter(Boolean);
     const start = words[0] === "#" ? 1 : 0;
     if (/^#?cell$/i.test(words[start] ?? "")) cell = numbersOf(words.slice(start + 1), 3, i, line, "cell a b c", unit);
     else if (words.length && !words[0].startsWith("#") && !(rows.length === 0 && /^["']?x\b/i.test(words[0]))) {

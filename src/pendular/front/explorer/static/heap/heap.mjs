@@ -3,8 +3,10 @@
 import { followCurves, PATHS, suctionsBetween, wholeCurvesOf } from "./curves.mjs";
 import { linesOf, packingNames } from "./grains.mjs";
 import { heapAnswerTo, rangeOf, usualSuction } from "./heap_answer.mjs";
+import { FARTHER, letPick, letTurn, NEARER } from "./heap_hands.mjs";
+import { lengthBar, paintHeap, writePicture } from "./heap_picture.mjs";
 import { HEAP_RECORDS } from "./heap_records.mjs";
-import { FIRST_HEAP, heapAt, heapHashOf, OWN, plotted, readSeen, seenAfter } from "./heap_view.mjs";
+import { FIRST_HEAP, heapAt, heapHashOf, OWN, plotted, seenAfter } from "./heap_view.mjs";
 import {
   heapCsvOf,
   heapInWords,
@@ -14,11 +16,10 @@ import {
   heapTilesOf,
   radiiInWords,
 } from "./heap_words.mjs";
+import { takeGrains } from "./own_grains.mjs";
 import { retentionChartOf } from "./retention_chart.mjs";
-import { makeScene } from "./scene.mjs";
-import { scaleIn } from "./space.mjs";
 import { fieldBox, markRight, markWrong } from "../fields.mjs";
-import { choice, copy, exact, fill, options, paperColours, save } from "../main.mjs";
+import { choice, copy, exact, fill, options, save } from "../main.mjs";
 import { positionOf, trackOf, valueAt, written } from "../tracks.mjs";
 import { show } from "../units.mjs";
 import { plainText } from "../words.mjs";
@@ -44,415 +45,284 @@ const SUCTION_STEPS = 320;
 const LITTLE = 80; // between two changes of tables and texts while a hand moves, [ms]
 const PAUSE = 250; // after the last change: what is slow, or speaks, waits so long, [ms]
 const FINE = 2; // pixels of a still picture for each of a moving one
-const PNG_SIZE = [1400, 1200];
-const EDGE = 0.65; // of the colour of a meniscus, the rest is that of the liquid
-const KEYS = {
-  ArrowLeft: { by: -5 },
-  ArrowRight: { by: 5 },
-  ArrowUp: { up: 5 },
-  ArrowDown: { up: -5 },
-  "+": { nearer: 1.15 },
-  "=": { nearer: 1.15 },
-  "-": { nearer: 1 / 1.15 },
-};
-const DEGREES_A_PIXEL = 0.4;
 
-/** The view of the heap; its page is laid out at once. */
-export function makeHeap() {
-  const at = (id) => document.getElementById(`heap-${id}`);
-  const draw = makeScene();
-  const fields = {};
-  const sizes = { canvas: [0, 0], chart: [0, 0] };
-  let answer; // what is shown
-  let own; // grains that were pasted: their text, its unit
-  let curves; // of the setting that was followed last
-  let followed;
-  let inner; // sides of the chart
-  let stopCurves = () => {};
-  let ahead; // the view to be shown in the next frame, and the field that asked for it
-  let soon;
-  let waiting;
-  let isOpen = false;
+const at = (id) => document.getElementById(`heap-${id}`);
+const fields = {};
+const sizes = { canvas: [0, 0], chart: [0, 0] };
+let answer; // what is shown
+let own; // grains that were pasted: their text, its unit
+let curves; // of the setting that was followed last
+let followed;
+let inner; // sides of the chart
+let stopCurves = () => {};
+let ahead; // the view to be shown in the next frame, and the field that asked for it
+let soon;
+let waiting;
+let isOpen = false;
 
-  // -- Laying out ----------------------------------------------------------------------------------------------------
+// -- Laying out -------------------------------------------------------------------------------------------------------
 
-  function layOut() {
-    const style = document.createElement("style");
-    style.textContent = HEAP_RECORDS.style;
-    document.head.append(style);
-    const main = document.createElement("main");
-    main.id = "heap-view";
-    main.innerHTML = HEAP_RECORDS.html;
-    document.getElementById("pair-view").after(main);
-    for (const [place, names] of Object.entries(PLACES))
-      for (const name of names) at(`fields-${place}`).append(fieldNamed(name));
-    choice("heap-path", PATHS, (path) => change("suction", { path }));
-    choice("heap-packing", [...packingNames(), OWN], takePacking);
-    choice("heap-source", [BY_NAME, GIVEN], giveLiquid);
-    options(
-      "heap-plot",
-      plotted().map((name) => [name, name.replaceAll("_", " ")]),
-    );
-  }
+function layOut() {
+  const style = document.createElement("style");
+  style.textContent = HEAP_RECORDS.style;
+  document.head.append(style);
+  const main = document.createElement("main");
+  main.id = "heap-view";
+  main.innerHTML = HEAP_RECORDS.html;
+  document.getElementById("pair-view").after(main);
+  for (const [place, names] of Object.entries(PLACES))
+    for (const name of names) at(`fields-${place}`).append(fieldNamed(name));
+  choice("heap-path", PATHS, (path) => change("suction", { path }));
+  choice("heap-packing", [...packingNames(), OWN], takePacking);
+  choice("heap-source", [BY_NAME, GIVEN], giveLiquid);
+  options(
+    "heap-plot",
+    plotted().map((name) => [name, name.replaceAll("_", " ")]),
+  );
+}
 
-  function fieldNamed(name) {
-    const made = fieldBox(`heap-${name}`, LABELS[name], name === "liquid" ? "liquids" : "");
-    fields[name] = made;
-    made.text.addEventListener("change", () => {
-      const typed = made.text.value.trim();
-      if (made.isRefused || typed !== answer.view[name]) change(name, { [name]: typed });
-    });
-    made.slider?.addEventListener("input", () => {
-      const value = valueAt(trackNamed(name), made.slider.valueAsNumber);
-      change(name, { [name]: written(name, value, name === "suction" ? 4 : 3) });
-    });
-    return made.field;
-  }
+function fieldNamed(name) {
+  const made = fieldBox(`heap-${name}`, LABELS[name], name === "liquid" ? "liquids" : "");
+  fields[name] = made;
+  made.text.addEventListener("change", () => {
+    const typed = made.text.value.trim();
+    if (made.isRefused || typed !== answer.view[name]) change(name, { [name]: typed });
+  });
+  made.slider?.addEventListener("input", () => {
+    const value = valueAt(trackNamed(name), made.slider.valueAsNumber);
+    change(name, { [name]: written(name, value, name === "suction" ? 4 : 3) });
+  });
+  return made.field;
+}
 
-  const trackNamed = (name) =>
-    name === "suction" ? { ...rangeOf(answer), steps: SUCTION_STEPS, spacing: "logarithmic" } : trackOf(name, {});
+const trackNamed = (name) =>
+  name === "suction" ? { ...rangeOf(answer), steps: SUCTION_STEPS, spacing: "logarithmic" } : trackOf(name, {});
 
-  function valueNamed(name) {
-    const { question } = answer;
-    if (name === "temperature") return question.liquid.temperature ?? NaN;
-    const values = { suction: question.suction, radius: question.heap.meanRadius, "contact-angle": question.degrees };
-    return values[name] ?? question.liquid.surfaceTension;
-  }
+function valueNamed(name) {
+  const { question } = answer;
+  if (name === "temperature") return question.liquid.temperature ?? NaN;
+  const values = { suction: question.suction, radius: question.heap.meanRadius, "contact-angle": question.degrees };
+  return values[name] ?? question.liquid.surfaceTension;
+}
 
-  // -- What a person does --------------------------------------------------------------------------------------------
+// -- What a person does -----------------------------------------------------------------------------------------------
 
-  function listen() {
-    at("plot").addEventListener("change", (event) => change("suction", { plot: event.target.value }));
-    at("clear").addEventListener("change", (event) =>
-      change("suction", { grains: event.target.checked ? "clear" : "solid" }),
-    );
-    at("condensation").addEventListener("change", (event) =>
-      change("suction", { condensation: event.target.checked ? "yes" : "no" }),
-    );
-    at("use").addEventListener("click", () => useOwn(at("text").value));
-    at("file").addEventListener("click", () => (at("file").value = "")); // the same file may have changed
-    at("file").addEventListener("change", (event) => readFile(event.target.files[0]));
-    at("text").addEventListener("dragover", (event) => event.preventDefault());
-    at("text").addEventListener("drop", (event) => {
-      if (!event.dataTransfer.files.length) return; // a text is dropped as ever
-      event.preventDefault();
-      readFile(event.dataTransfer.files[0]);
-    });
-    letTurn(at("canvas"));
-    letSeek(at("chart"));
-    at("save-curve").addEventListener("click", () => save("retention.csv", "text/csv", heapCsvOf(wholeCurves())));
-    at("save-grains").addEventListener("click", () => save("grains.txt", "text/plain", linesOf(answer.question.heap)));
-    at("save-program").addEventListener("click", () => save("heap.py", "text/x-python", program()));
-    at("save-picture").addEventListener("click", savePicture);
-    for (const button of document.querySelectorAll("#heap-view [data-copies]"))
-      button.addEventListener("click", () => copy(button));
-    const observer = new ResizeObserver(() => {
-      if (!isOpen || !answer) return;
-      measure();
-      drawSized();
-    });
-    for (const id of Object.keys(sizes)) observer.observe(at(id));
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => isOpen && answer && drawSized());
-  }
-
-  function takePacking(packing) {
-    if (packing !== OWN || own) change("radius", { packing });
-    else {
-      showFields();
-      at("own").open = true;
-      at("text").focus();
-    }
-  }
-
-  function useOwn(text) {
-    const before = own;
-    own = { text, unit: at("unit").value.trim() };
-    try {
-      showHeap(heapAnswerTo(viewOfOwn(), own, exact, answer));
-      at("text-wrong").textContent = "";
-      at("text").removeAttribute("aria-invalid");
-    } catch (error) {
-      if (!(error instanceof RangeError)) throw error;
-      own = before;
-      at("text-wrong").textContent = error.message;
-      at("text").setAttribute("aria-invalid", "true");
-    }
-  }
-
-  /** The view with the pasted grains; a suction far from what holds bridges between them gives way to a usual one. */
-  function viewOfOwn() {
-    const view = { ...answer.view, packing: OWN };
-    const suction = usualSuction(view, own);
-    if (suction === undefined) return view;
-    if (fields.suction.isRefused) markRight(fields.suction);
-    return { ...view, suction: written("suction", suction, 3) };
-  }
-
-  async function readFile(file) {
-    if (!file) return;
-    at("text").value = await file.text();
-    useOwn(at("text").value);
-  }
-
-  function giveLiquid(source) {
-    const tension = written("surface-tension", answer.question.liquid.surfaceTension, 4);
-    change("surface-tension", { "surface-tension": source === GIVEN ? tension : "" });
-  }
-
-  /** The heap is turned by hand and by keys. */
-  function letTurn(canvas) {
-    const turn = (seen) => change("suction", { seen });
-    const now = () => ahead?.view.seen ?? answer.view.seen;
-    let held;
-    canvas.addEventListener("pointerdown", (event) => {
-      if (event.button) return;
-      held = [event.clientX, event.clientY];
-      canvas.setPointerCapture(event.pointerId);
-      canvas.classList.add("held");
-    });
-    canvas.addEventListener("pointermove", (event) => {
-      if (!held) return;
-      const [x, y] = [event.clientX, event.clientY];
-      turn(seenAfter(now(), { by: -DEGREES_A_PIXEL * (x - held[0]), up: DEGREES_A_PIXEL * (y - held[1]) }));
-      held = [x, y];
-    });
-    for (const name of ["pointerup", "pointercancel"])
-      canvas.addEventListener(name, () => {
-        held = undefined;
-        canvas.classList.remove("held");
-      });
-    canvas.addEventListener("keydown", (event) => {
-      if (event.ctrlKey || event.metaKey || event.altKey || !(event.key in KEYS)) return;
-      event.preventDefault();
-      turn(seenAfter(now(), KEYS[event.key]));
-    });
-    at("nearer").addEventListener("click", () => turn(seenAfter(now(), KEYS["+"])));
-    at("farther").addEventListener("click", () => turn(seenAfter(now(), KEYS["-"])));
-    at("first").addEventListener("click", () => turn(FIRST_HEAP.seen));
-  }
-
-  /** A place on the curve is gone to. */
-  function letSeek(svg) {
-    const suctionAt = (event) => {
-      const share = (event.clientX - svg.getBoundingClientRect().x - inner.left) / (inner.right - inner.left);
-      return inner.low * (inner.high / inner.low) ** Math.min(Math.max(share, 0), 1);
-    };
-    const go = (event) => change("suction", { suction: written("suction", suctionAt(event), 4) });
-    svg.addEventListener("pointerdown", (event) => {
-      if (event.button || !inner) return;
-      svg.setPointerCapture(event.pointerId);
-      go(event);
-    });
-    svg.addEventListener("pointermove", (event) => {
-      if (!inner) return;
-      if (svg.hasPointerCapture(event.pointerId)) go(event);
-      else at("readout").value = `at ${show(suctionAt(event), "Pa", 3)}`;
-    });
-    svg.addEventListener("pointerleave", () => (at("readout").value = ""));
-  }
-
-  // -- What follows from it ------------------------------------------------------------------------------------------
-
-  /** Show another view in the next frame: a fast hand never runs ahead of a slow machine. */
-  function change(field, changes) {
-    const isFirst = ahead === undefined;
-    ahead = { view: { ...(ahead?.view ?? answer.view), ...changes }, field };
-    if (isFirst) requestAnimationFrame(showAhead);
-  }
-
-  function showAhead() {
-    const { view, field } = ahead;
-    ahead = undefined;
-    try {
-      showHeap(heapAnswerTo(view, own, exact, answer));
-    } catch (error) {
-      if (!(error instanceof RangeError)) throw error;
-      markWrong(fields[field], view[field], error);
-      showFields();
-      return;
-    }
-    if (fields[field].isRefused) markRight(fields[field]);
-    showFields();
-  }
-
-  function showHeap(next) {
-    answer = next;
-    if (answer.setting !== followed) {
-      followed = answer.setting;
-      curves = undefined;
-      stopCurves();
-      stopCurves = followCurves(followed, suctions(), exact, (found) => {
-        curves = found;
-        drawChart();
-        later();
-      });
-    }
-    fill(at("tiles"), heapTilesOf(answer));
-    fill(at("notices"), answer.notices.map((notice) => `<p>${plainText(notice)}</p>`).join(""));
-    drawSized();
-    showFields();
-    later();
-  }
-
-  function suctions() {
-    const { low, high } = rangeOf(answer);
-    return suctionsBetween(low, high, CURVE_POINTS);
-  }
-
-  function drawSized() {
-    drawChart();
-    drawHeap(1);
-  }
-
-  function drawChart() {
-    const chart = retentionChartOf(answer, curves, rangeOf(answer), ...sizes.chart);
-    inner = chart.inner;
-    fill(at("chart-lines"), chart.svg);
-    fill(at("chart-now"), chart.now);
-    at("chart").setAttribute("aria-label", chart.words);
-  }
-
-  /** Draw the heap with so many pixels for each of the page. */
-  function drawHeap(fineness) {
-    const [columns, rows] = sizes.canvas.map((size) => Math.max(1, Math.round(fineness * size)));
-    paint(at("canvas"), columns, rows, fineness > 1, pagePalette());
-    at("canvas").setAttribute("aria-label", heapInWords(answer));
-    fill(at("bar"), barOf());
-  }
-
-  function paint(canvas, columns, rows, isFine, palette) {
-    const { setting, answers, bridges, view } = answer;
-    const isClear = view.grains === "clear";
-    const asked = { setting, answers, bridges, view: readSeen(view.seen), palette, isClear, columns, rows, isFine };
-    const pixels = draw(asked, exact);
-    if (canvas.width !== columns || canvas.height !== rows) Object.assign(canvas, { width: columns, height: rows });
-    canvas.getContext("2d").putImageData(new ImageData(pixels, columns, rows), 0, 0);
-  }
-
-  /** Bar of a round length, with its length. */
-  function barOf() {
-    const metre = scaleIn(answer.question.heap, readSeen(answer.view.seen), ...sizes.canvas);
-    const wanted = (0.2 * Math.min(...sizes.canvas)) / metre;
-    const decade = 10 ** Math.floor(Math.log10(wanted));
-    const length = Math.max(...[1, 2, 5].map((step) => step * decade).filter((one) => one <= wanted));
-    return `<path d="M4 24H${(4 + length * metre).toFixed(1)}"/><text x="4" y="16">${show(length, "m")}</text>`;
-  }
-
-  /** Sizes are kept: to ask for them in each frame would lay out the page twice. */
-  function measure() {
-    for (const id of Object.keys(sizes)) sizes[id] = [at(id).clientWidth, at(id).clientHeight];
-  }
-
-  /** What nobody waits for: tables and texts follow a little later, the fine picture and the address when the hand rests. */
-  function later() {
-    if (!isOpen) return; // the address is another view's
-    soon ??= setTimeout(() => {
-      soon = undefined;
-      fill(at("numbers"), heapNumbersOf(answer, curves));
-      at("program").textContent = program();
-    }, LITTLE);
-    clearTimeout(waiting);
-    waiting = setTimeout(() => {
-      at("spoken").textContent = heapSpoken(answer);
-      history.replaceState(null, "", `#${heapHashOf(answer.view)}`);
-      document.getElementById("to-heap").href = `#${heapHashOf(answer.view)}`;
-      drawHeap(FINE);
-      at("canvas").dispatchEvent(new Event("rested"));
-    }, PAUSE);
-  }
-
-  function showFields() {
-    const { view, question } = answer;
-    const checked = { "heap-path": view.path, "heap-packing": view.packing };
-    checked["heap-source"] = view["surface-tension"] === "" ? BY_NAME : GIVEN;
-    for (const [name, value] of Object.entries(checked))
-      for (const radio of document.querySelectorAll(`[name=${name}]`)) radio.checked = radio.value === value;
-    at("plot").value = view.plot;
-    at("clear").checked = view.grains === "clear";
-    at("condensation").checked = view.condensation === "yes";
-    fields.radius.field.hidden = view.packing === OWN;
-    fields.liquid.field.hidden = fields.temperature.field.hidden = view["surface-tension"] !== "";
-    fields["surface-tension"].field.hidden = view["surface-tension"] === "";
-    const { heap } = question;
-    at("discs").hidden = !heap.cell;
-    fill(
-      at("packing-words"),
-      `${WORDS[view.packing]}: ${heap.count} grains of radius ${radiiInWords(heap)}, solid fraction ${show(1 - answer.values.porosity, "", 3)}${heap.cell ? "; the cell repeats" : ""}`,
-    );
-    for (const [name, field] of Object.entries(fields)) showField(name, field);
-  }
-
-  function showField(name, { text, slider, isRefused }) {
-    if (isRefused) return;
-    if (text !== document.activeElement || text.value.trim() !== answer.view[name]) text.value = answer.view[name];
-    if (!slider) return;
-    const track = trackNamed(name);
-    slider.max = track.steps;
-    // the slider in use is ahead of what is rounded in its field
-    const value = valueNamed(name);
-    if (slider !== document.activeElement && Number.isFinite(value))
-      slider.value = Math.round(positionOf(track, value));
-    slider.setAttribute("aria-valuetext", answer.view[name]);
-  }
-
-  // -- To take away --------------------------------------------------------------------------------------------------
-
-  const program = () => heapProgramOf(answer, rangeOf(answer), CURVE_POINTS);
-
-  /** The curves, followed at once where they are not there yet. */
-  const wholeCurves = () => curves ?? wholeCurvesOf(answer.setting, suctions(), exact);
-
-  function savePicture() {
-    const canvas = document.createElement("canvas");
-    const paper = paperColours();
-    paint(canvas, ...PNG_SIZE, true, pictureColours((name) => paper[name === "--ball" ? "--grain" : name]));
-    const context = canvas.getContext("2d");
-    context.globalCompositeOperation = "destination-over";
-    context.fillStyle = "#fff";
-    context.fillRect(0, 0, ...PNG_SIZE);
-    canvas.toBlob((content) => save("heap.png", "image/png", content));
-    drawHeap(FINE); // the scene keeps one size
-  }
-
-  // -- In and out of sight -------------------------------------------------------------------------------------------
-
-  /** Show the view of an address; one with a mistake is told of, and the first view is shown. */
-  function open(hash) {
-    isOpen = true;
+function listen() {
+  at("plot").addEventListener("change", (event) => change("suction", { plot: event.target.value }));
+  at("clear").addEventListener("change", (event) =>
+    change("suction", { grains: event.target.checked ? "clear" : "solid" }),
+  );
+  at("condensation").addEventListener("change", (event) =>
+    change("suction", { condensation: event.target.checked ? "yes" : "no" }),
+  );
+  takeGrains(at, useOwn);
+  const seenNow = () => ahead?.view.seen ?? answer.view.seen;
+  letTurn(at("canvas"), seenNow, (seen) => change("suction", { seen }));
+  at("nearer").addEventListener("click", () => change("suction", { seen: seenAfter(seenNow(), NEARER) }));
+  at("farther").addEventListener("click", () => change("suction", { seen: seenAfter(seenNow(), FARTHER) }));
+  at("first").addEventListener("click", () => change("suction", { seen: FIRST_HEAP.seen }));
+  const goTo = (suction) => change("suction", { suction: written("suction", suction, 4) });
+  letPick(at("chart"), at("readout"), () => inner, goTo);
+  at("save-curve").addEventListener("click", () => save("retention.csv", "text/csv", heapCsvOf(wholeCurves())));
+  at("save-grains").addEventListener("click", () => save("grains.txt", "text/plain", linesOf(answer.question.heap)));
+  at("save-program").addEventListener("click", () => save("heap.py", "text/x-python", program()));
+  at("save-picture").addEventListener("click", savePicture);
+  for (const button of document.querySelectorAll("#heap-view [data-copies]"))
+    button.addEventListener("click", () => copy(button));
+  const observer = new ResizeObserver(() => {
+    if (!isOpen || !answer) return;
     measure();
-    let notice = "";
-    try {
-      showHeap(heapAnswerTo(heapAt(hash), own, exact, answer));
-    } catch (error) {
-      if (!(error instanceof RangeError)) throw error;
-      notice = error.message;
-      showHeap(heapAnswerTo(FIRST_HEAP, own, exact, answer));
-    }
-    if (notice) fill(at("notices"), `<p>${plainText(notice)}</p>`);
-  }
+    drawSized();
+  });
+  for (const id of Object.keys(sizes)) observer.observe(at(id));
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => isOpen && answer && drawSized());
+}
 
-  function close() {
-    isOpen = false;
-    clearTimeout(waiting);
+function takePacking(packing) {
+  if (packing !== OWN || own) change("radius", { packing });
+  else {
+    showFields();
+    at("own").open = true;
+    at("text").focus();
   }
+}
 
+/** Show the heap with pasted grains; RangeError if they are none. */
+function useOwn(grains) {
+  const view = { ...answer.view, packing: OWN };
+  const suction = usualSuction(view, grains); // where that of the view is far from what holds bridges between them
+  if (suction !== undefined) view.suction = written("suction", suction, 3);
+  showHeap(heapAnswerTo(view, grains, exact, answer));
+  own = grains;
+  if (suction !== undefined && fields.suction.isRefused) markRight(fields.suction);
+}
+
+function giveLiquid(source) {
+  const tension = written("surface-tension", answer.question.liquid.surfaceTension, 4);
+  change("surface-tension", { "surface-tension": source === GIVEN ? tension : "" });
+}
+
+// -- What follows from it ---------------------------------------------------------------------------------------------
+
+/** Show another view in the next frame: a fast hand never runs ahead of a slow machine. */
+function change(field, changes) {
+  const isFirst = ahead === undefined;
+  ahead = { view: { ...(ahead?.view ?? answer.view), ...changes }, field };
+  if (isFirst) requestAnimationFrame(showAhead);
+}
+
+function showAhead() {
+  const { view, field } = ahead;
+  ahead = undefined;
+  try {
+    showHeap(heapAnswerTo(view, own, exact, answer));
+  } catch (error) {
+    if (!(error instanceof RangeError || error.constructor === Error)) throw error; // of the solver, which failed
+    markWrong(fields[field], view[field], error);
+    showFields();
+    return;
+  }
+  if (fields[field].isRefused) markRight(fields[field]);
+  showFields();
+}
+
+function showHeap(next) {
+  answer = next;
+  if (answer.setting !== followed) {
+    followed = answer.setting;
+    curves = undefined;
+    stopCurves();
+    stopCurves = followCurves(followed, suctions(), exact, (found) => {
+      curves = found;
+      drawChart();
+      later();
+    });
+  }
+  fill(at("tiles"), heapTilesOf(answer));
+  fill(at("notices"), answer.notices.map((notice) => `<p>${plainText(notice)}</p>`).join(""));
+  drawSized();
+  showFields();
+  later();
+}
+
+function suctions() {
+  const { low, high } = rangeOf(answer);
+  return suctionsBetween(low, high, CURVE_POINTS);
+}
+
+function drawSized() {
+  drawChart();
+  drawHeap(1);
+}
+
+function drawChart() {
+  const chart = retentionChartOf(answer, curves, rangeOf(answer), ...sizes.chart);
+  inner = chart.inner;
+  fill(at("chart-lines"), chart.svg);
+  fill(at("chart-now"), chart.now);
+  at("chart").setAttribute("aria-label", chart.words);
+}
+
+/** Draw the heap with so many pixels for each of the page. */
+function drawHeap(fineness) {
+  const [columns, rows] = sizes.canvas.map((size) => Math.max(1, Math.round(fineness * size)));
+  paintHeap(at("canvas"), answer, exact, { columns, rows, isFine: fineness > 1 });
+  at("canvas").setAttribute("aria-label", heapInWords(answer));
+  fill(at("bar"), lengthBar(answer, ...sizes.canvas));
+}
+
+/** Sizes are kept: to ask for them in each frame would lay out the page twice. */
+function measure() {
+  for (const id of Object.keys(sizes)) sizes[id] = [at(id).clientWidth, at(id).clientHeight];
+}
+
+/** What nobody waits for: tables and texts follow a little later, fine picture and address when the hand rests. */
+function later() {
+  if (!isOpen) return; // the address is another view's
+  soon ??= setTimeout(() => {
+    soon = undefined;
+    fill(at("numbers"), heapNumbersOf(answer, curves));
+    at("program").textContent = program();
+  }, LITTLE);
+  clearTimeout(waiting);
+  waiting = setTimeout(() => {
+    at("spoken").textContent = heapSpoken(answer);
+    history.replaceState(null, "", `#${heapHashOf(answer.view)}`);
+    document.getElementById("to-heap").href = `#${heapHashOf(answer.view)}`;
+    drawHeap(FINE);
+  }, PAUSE);
+}
+
+function showFields() {
+  const { view, question } = answer;
+  const checked = { "heap-path": view.path, "heap-packing": view.packing };
+  checked["heap-source"] = view["surface-tension"] === "" ? BY_NAME : GIVEN;
+  for (const [name, value] of Object.entries(checked))
+    for (const radio of document.querySelectorAll(`[name=${name}]`)) radio.checked = radio.value === value;
+  at("plot").value = view.plot;
+  at("clear").checked = view.grains === "clear";
+  at("condensation").checked = view.condensation === "yes";
+  fields.radius.field.hidden = view.packing === OWN;
+  fields.liquid.field.hidden = fields.temperature.field.hidden = view["surface-tension"] !== "";
+  fields["surface-tension"].field.hidden = view["surface-tension"] === "";
+  const { heap } = question;
+  at("discs").hidden = !heap.cell;
+  fill(
+    at("packing-words"),
+    `${WORDS[view.packing]}: ${heap.count} grains of radius ${radiiInWords(heap)}, solid fraction ${show(1 - answer.values.porosity, "", 3)}${heap.cell ? "; the cell repeats" : ""}`,
+  );
+  for (const [name, field] of Object.entries(fields)) showField(name, field);
+}
+
+function showField(name, { text, slider, isRefused }) {
+  if (isRefused) return;
+  if (text !== document.activeElement || text.value.trim() !== answer.view[name]) text.value = answer.view[name];
+  if (!slider) return;
+  const track = trackNamed(name);
+  slider.max = track.steps;
+  // the slider in use is ahead of what is rounded in its field
+  const value = valueNamed(name);
+  if (slider !== document.activeElement && Number.isFinite(value)) slider.value = Math.round(positionOf(track, value));
+  slider.setAttribute("aria-valuetext", answer.view[name]);
+}
+
+// -- To take away -----------------------------------------------------------------------------------------------------
+
+const program = () => heapProgramOf(answer, rangeOf(answer), CURVE_POINTS);
+
+/** The curves, followed at once where they are not there yet. */
+const wholeCurves = () => curves ?? wholeCurvesOf(answer.setting, suctions(), exact);
+
+function savePicture() {
+  writePicture(answer, exact, (content) => save("heap.png", "image/png", content));
+  drawHeap(FINE); // the pictures share one room
+}
+
+// -- In and out of sight ----------------------------------------------------------------------------------------------
+
+/** Show the view of an address; one with a mistake is told of, and the first view is shown. */
+function open(hash) {
+  isOpen = true;
+  measure();
+  let notice = "";
+  try {
+    showHeap(heapAnswerTo(heapAt(hash), own, exact, answer));
+  } catch (error) {
+    if (!(error instanceof RangeError)) throw error;
+    notice = error.message;
+    showHeap(heapAnswerTo(FIRST_HEAP, own, exact, answer));
+  }
+  if (notice) fill(at("notices"), `<p>${plainText(notice)}</p>`);
+}
+
+function close() {
+  isOpen = false;
+  clearTimeout(waiting);
+}
+
+/** The view, laid out. */
+export function makeHeap() {
   layOut();
   listen();
-  return { open, close, hash: () => heapHashOf(answer.view), answer: () => answer, curves: () => curves };
-}
-
-/** Colours of the picture as the style sheet has them. */
-function pagePalette() {
-  const style = getComputedStyle(document.documentElement);
-  return pictureColours((name) => style.getPropertyValue(name));
-}
-
-function pictureColours(colour) {
-  const rgb = (name) => {
-    const hex = colour(name).trim().slice(1);
-    return [0, 2, 4].map((i) => Number.parseInt(hex.slice(i, i + 2), 16));
-  };
-  const edge = rgb("--liquid-edge");
-  const liquid = rgb("--liquid").map((part, k) => EDGE * edge[k] + (1 - EDGE) * part);
-  return { grain: rgb("--ball"), liquid, kept: rgb("--accent"), ground: rgb("--panel") };
+  return { open, close, hash: () => heapHashOf(answer.view) };
 }

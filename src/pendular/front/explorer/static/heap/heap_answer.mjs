@@ -36,7 +36,9 @@ function noticesOf({ heap, pairs, angle, surfaceTension }, suction, solver) {
   if (Math.max(overlap, 2 * heap.cut) <= heap.rounding) return [];
   const radius = [pairs.first, pairs.second].map((bodies) => heap.radii[bodies[deepest] ?? 0]);
   const spanned = solver.rupture({ radius, contactAngle: angle }, { suction, surfaceTension })?.separation ?? 0;
-  const [deep, cut, long, at] = [overlap, 2 * heap.cut, spanned].map((one) => show(one, "m", 3)).concat(show(suction, "Pa", 4));
+  const [deep, cut, long, at] = [overlap, 2 * heap.cut, spanned]
+    .map((one) => show(one, "m", 3))
+    .concat(show(suction, "Pa", 4));
   if (overlap > spanned)
     return [
       `Grains overlap by up to ${deep}, more than a bridge spans at ${at}, ${long}: with noise of that size gaps look too wide and the stress is too low.`,

@@ -65,7 +65,8 @@ export function heapHashOf(view) {
   if (view["surface-tension"]) parts["surface-tension"] = bare(view["surface-tension"]);
   else Object.assign(parts, { liquid: view.liquid, temperature: bare(view.temperature) });
   parts.suction = bare(view.suction);
-  for (const name of ["path", "condensation", "plot", "grains", "seen"]) if (view[name] !== FIRST_HEAP[name]) parts[name] = view[name];
+  for (const name of ["path", "condensation", "plot", "grains", "seen"])
+    if (view[name] !== FIRST_HEAP[name]) parts[name] = view[name];
   const words = Object.entries(parts).map(
     ([name, text]) => `${name}=${encodeURIComponent(text).replaceAll("%2C", ",")}`,
   );
@@ -91,8 +92,16 @@ export function heapQuestionOf(view, own) {
   if (!(suction > 0)) throw new RangeError(`suction: ${suction} Pa is not > 0; at saturation no bridge stands alone`);
   const heap = view.packing === OWN ? ownHeap(own) : readPacking(view);
   const most = (RECORDS.domain.mostSuction * liquid.surfaceTension) / heap.mostRadius;
-  if (suction > most) throw new RangeError(`suction: '${view.suction}' is not <= ${show(most, "Pa", 3)} for these grains`);
-  return { heap, degrees, angle: (degrees * Math.PI) / 180, liquid, suction, condensation: view.condensation === "yes" };
+  if (suction > most)
+    throw new RangeError(`suction: '${view.suction}' is not <= ${show(most, "Pa", 3)} for these grains`);
+  return {
+    heap,
+    degrees,
+    angle: (degrees * Math.PI) / 180,
+    liquid,
+    suction,
+    condensation: view.condensation === "yes",
+  };
 }
 
 function ownHeap(own) {

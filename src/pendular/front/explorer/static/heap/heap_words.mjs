@@ -24,7 +24,12 @@ export function heapTilesOf({ view, values, bridges, answers }) {
   return [
     tile("saturation", "Saturation", percent(values.saturation), `${show(values.liquid_volume, "m^3", 4)} of liquid`),
     tile("bridges", "Bridges", String(values.bridges), other),
-    tile("force", "Suction stress", show(values.suction_stress, "Pa", 4), `mean force ${show(values.mean_force, "N", 4)}`),
+    tile(
+      "force",
+      "Suction stress",
+      show(values.suction_stress, "Pa", 4),
+      `mean force ${show(values.mean_force, "N", 4)}`,
+    ),
   ].join("");
 }
 
@@ -62,7 +67,14 @@ export function heapNumbersOf({ question, values }, curves) {
 
 // -- To take away -----------------------------------------------------------------------------------------------------
 
-const STRESS = [["11", 0], ["22", 1], ["33", 2], ["23", 5], ["13", 4], ["12", 3]];
+const STRESS = [
+  ["11", 0],
+  ["22", 1],
+  ["33", 2],
+  ["23", 5],
+  ["13", 4],
+  ["12", 3],
+];
 
 /** Both branches, in the columns of `pendular packing --retention --csv`. */
 export function heapCsvOf({ suctions, branches }) {
@@ -72,7 +84,7 @@ export function heapCsvOf({ suctions, branches }) {
     states.map((state, k) => [
       path,
       suctions[k],
-      ...names.map((name) => state[name]),
+      ...names.map((name) => state[name] ?? NaN),
       ...STRESS.map(([, place]) => state.stress[place]),
     ]),
   );

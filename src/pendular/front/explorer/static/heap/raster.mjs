@@ -1,5 +1,5 @@
-// Balls and surfaces of revolution as pixels, the nearer before the farther: by the processor, so that every browser shows
-// the same, with a graphics card or without.
+// Balls and surfaces of revolution as pixels, the nearer before the farther: by the processor, so that every browser
+// shows the same, with a graphics card or without.
 
 const LIGHT = [-0.4193, 0.5125, 0.7493].map((part) => part / Math.hypot(0.4193, 0.5125, 0.7493));
 const SHADE = 0.5; // brightness of what turns away from the light
@@ -69,8 +69,8 @@ let ring = new Float64Array(0); // x, y, z and brightness of each corner
 const turns = new Map(); // cosines and sines by the number of sides
 
 /**
- * Draw a surface of revolution. The meridian is x along the axis from the pole and y away from it, in pixels, from `start`
- * to `stop` of its points; where it is cut off in the middle a disc closes it.
+ * Draw a surface of revolution. The meridian is x along the axis from the pole and y away from it, in pixels, from
+ * `start` to `stop` of its points; where it is cut off in the middle a disc closes it.
  */
 export function drawMeniscus(canvas, pole, axis, meridian, sides, look, { start, stop, disc }) {
   const [across, other] = spokesOf(axis);

@@ -18,11 +18,12 @@ export function retentionChartOf({ view, question, values }, curves, range, widt
   const words = `${title} (${meaning}) against suction, on drying and on wetting`;
   const [left, right] = [MARGIN.left, width - MARGIN.right];
   const inner = { ...range, left, right };
-  if (!curves) return { svg: waiting(width, height), now: "", words, inner };
+  if (!curves) return { svg: following(width, height), now: "", words, inner };
   const bottom = height - MARGIN.bottom;
   const frame = { left, right, top: MARGIN.top, floor: bottom - STRIP * height - GAP };
   const strip = { left, right, top: bottom - STRIP * height, floor: bottom };
-  const across = (suction) => left + ((right - left) * Math.log(suction / range.low)) / Math.log(range.high / range.low);
+  const across = (suction) =>
+    left + ((right - left) * Math.log(suction / range.low)) / Math.log(range.high / range.low);
   const [drying, wetting] = ["drying", "wetting"].map((path) => curves.branches[path].map((state) => state[view.plot]));
   const lineOf = (name, list, up) =>
     `<path class="${name}" d="${pathOf(list.map((value, i) => [across(curves.suctions[i]), up(value)]))}"/>`;
@@ -67,7 +68,7 @@ function leftAxis({ left, right, top, floor }, title) {
   );
 }
 
-const waiting = (width, height) =>
+const following = (width, height) =>
   `<text class="title" x="${0.5 * width}" y="${0.5 * height}" text-anchor="middle">following both branches</text>`;
 
 function upLinear(seen, { top, floor }) {

@@ -81,7 +81,9 @@ function drawBridge(canvas, tiles, { heap, pairs }, answers, row, { axes, scale,
   const again = poleFrom(j, heap.radii[i] - pairs.length[row]); // where the first pole is, seen from the second grain
   const isWhole = [0, 1, 2].every((k) => Math.abs(first[k] - again[k]) < 1e-3 * scale * heap.leastRadius);
   const around = scale * roundReachOf(heap.radii[i], heap.radii[j], answers, row);
-  const ends = [first, again].slice(0, isWhole ? 1 : 2).map((pole) => ({ pole, isSeen: !isHidden(tiles, pole, around) }));
+  const ends = [first, again]
+    .slice(0, isWhole ? 1 : 2)
+    .map((pole) => ({ pole, isSeen: !isHidden(tiles, pole, around) }));
   if (!ends.some(({ isSeen }) => isSeen)) return;
   const { points } = detail;
   const sides = Math.min(detail.sides, Math.max(FEWEST_SIDES, 2 * Math.ceil(SIDES_A_PIXEL * around * 0.5)));

@@ -1,8 +1,8 @@
 // A heap at a suction: which pairs hold a bridge on drying and on wetting, its water, and the stress it carries.
 //
-// As `wet` and `retention` of the package have it: a bridge stands up to its rupture; a new one forms where grains touch,
-// or, where bridges condense, where its grand potential is not above that of dry grains. Grains that overlap count as
-// touching.
+// As `wet` and `retention` of the package have it: a bridge stands up to its rupture; a new one forms where grains
+// touch, or, where bridges condense, where its grand potential is not above that of dry grains. Grains that overlap
+// count as touching.
 
 import { pairsOf, poresOf, takenOf } from "./pairs.mjs";
 
