@@ -89,6 +89,16 @@ def test_a_bridge_that_evaporates():
     assert found.values == pytest.approx({"volume": VOLUME, "evaporation_rate": rate}, rel=1e-5)
 
 
+def test_errors_that_reach_beyond_the_domain_are_those_of_the_rates():
+    """One standard error away lies a sphere so small that no bridge of that volume is known."""
+    gap = np.array([10.8, 22.9, 34.9, 48.1, 60.2, 72.2]) * 1e-9
+    force = np.array([354.0, 181.0, 105.0, 66.4, 47.5, 36.2]) * 1e-9
+    pair = pl.Pair((2.83e-6, 1.11e-6), 1.02)
+    found = fitted(gap, force, pair, volume=7.6e-22, free=("radius2", "volume"), rupture=1.19e-7)
+    assert found.converged
+    assert min(found.errors.values()) > 0.0
+
+
 def test_overlap_and_a_large_drop_below_its_lower_end_is_no_obstacle():
     gap = np.linspace(-0.02e-3, 0.5 * END, 40)
     force = pl.bridge(BEADS, gap, volume=VOLUME, liquid=WATER).force

@@ -182,8 +182,10 @@ def _size_of(model: Model, data: Data, found: Minimum, errors: Floats, loss: Los
 def _told(model: Model, data: Data, found: Minimum, errors: Floats, loss: Loss, is_absolute: bool) -> Fit:
     """The answer of a search."""
     scores, gain = scores_of(loss, found.residuals), gain_of(loss, found.residuals)
+    misses = Misses(model, data, errors)
+    misses.searched(found.variables)  # from here on NaN where nothing is known
     rates = secant_rates(
-        Misses(model, data, errors).residuals,
+        misses.residuals,
         found.variables,
         found.jacobian,
         widening(scores, gain, len(model.unknowns)),
