@@ -37,6 +37,7 @@ FILES = {
     "tests/test_explorer_fit_page.py": "page",
     "tests/test_explorer_heap_page.py": "page",
     "tests/test_explorer_solids.py": "page",
+    "tests/test_site_pages.py": "page",
 }
 
 

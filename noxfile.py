@@ -94,8 +94,9 @@ def imports(session: nox.Session) -> None:
 
 @nox.session
 def site(session: nox.Session) -> None:
-    """The site, warnings as errors."""
+    """The site, warnings as errors, and each of its pages in Chromium and Firefox, from files and from a server."""
     in_project(session, "docs", "python", "-m", "tools.site")
+    in_project(session, "all", "pytest", "tests/test_site_pages.py")
 
 
 @nox.session(venv_backend="uv")

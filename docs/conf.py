@@ -36,6 +36,7 @@ copybutton_only_copy_prompt_lines = True
 
 html_theme = "furo"
 html_title = "Pendular"
+html_favicon = "../src/pendular/front/explorer/static/logo.svg"
 html_static_path = ["static"]
 html_css_files = ["site.css"]
 html_copy_source = False
@@ -66,8 +67,12 @@ def skip_fields(app: Sphinx, what: str, name: str, thing: object, skip: bool, op
 
 
 def opening(picture: re.Match[str]) -> str:
-    """A picture that opens by itself, unless it leads elsewhere already."""
-    return picture[0] if picture[1] else f'<a class="picture" href="{picture[2]}">{picture[0]}</a>'
+    """A picture that opens by itself, unless it leads elsewhere; a wide one twice, for its two parts on a phone."""
+    image = picture[0]
+    if picture[1]:
+        return image
+    rest = re.sub(r'\balt="[^"]*"', 'alt=""', image).replace('class="wide"', 'class="wide rest"')
+    return f'<a class="picture" href="{picture[2]}">{image}{rest if rest.count("wide rest") else ""}</a>'
 
 
 def finish(app: Sphinx, page: str, template: str, context: dict, doctree: object) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, Self
 
 _PATIENCE = 60.0  # [s]
+_OWN = "console.error: RSLoader"  # which misses the network
 _NARROWEST = 500  # window that it has [px]
 _ERRORS = """
 const errors = Services.console.getMessageArray().filter(
@@ -43,6 +44,8 @@ class Firefox:
             "browser.dom.window.dump.enabled": True,
             "devtools.console.stdout.content": True,
             "devtools.console.stdout.chrome": False,
+            "app.normandy.enabled": False,  # nor anything else that asks the network for settings
+            "services.settings.server": "data:,#remote-settings-dummy/v1",
         }
         lines = [f'user_pref("{name}", {json.dumps(value)});' for name, value in preferences.items()]
         (profile / "user.js").write_text("\n".join([*lines, ""]))
@@ -52,6 +55,7 @@ class Firefox:
             self._process = subprocess.Popen(command, stdout=said, stderr=subprocess.DEVNULL)
         self._socket = self._connected(port)
         self._asked = 0
+        self._zoom = 1.0
 
     def _connected(self, port: int) -> socket.socket:
         until = time.monotonic() + _PATIENCE
@@ -95,6 +99,8 @@ class Firefox:
         """Open an address."""
         self._ask("WebDriver:Navigate", url="about:blank")
         self._ask("WebDriver:Navigate", url=address)
+        if self._zoom != 1.0:  # which a page does not leave to the next
+            self._run_in_itself("ZoomManager.zoom = arguments[0]", self._zoom)
 
     def run(self, script: str) -> Any:
         """What a script returns."""
@@ -108,14 +114,15 @@ class Firefox:
         return found
 
     def narrow(self, width: int) -> None:
-        """Give pages a width, which is smaller than any window."""
+        """Give the pages that are opened from now on a width, which may be smaller than any window."""
         self._ask("WebDriver:SetWindowRect", width=_NARROWEST, height=1200)
-        self._run_in_itself("ZoomManager.zoom = arguments[0]", _NARROWEST / width)
+        self._zoom = _NARROWEST / width
 
     def complaints(self) -> list[str]:
         """Errors of scripts since the last call, and all that pages wrote on the console since the beginning."""
         said = self._said.read_text(errors="replace").splitlines()
-        return [*self._run_in_itself(_ERRORS), *(line for line in said if line.startswith(("console.e", "console.w")))]
+        of_pages = (line for line in said if line.startswith(("console.e", "console.w")) and not line.startswith(_OWN))
+        return [*self._run_in_itself(_ERRORS), *of_pages]
 
     def wait_for(self, condition: str) -> None:
         """Wait until an expression is true."""
