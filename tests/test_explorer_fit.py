@@ -203,6 +203,7 @@ def test_optima_errors_and_words_are_those_of_python(fits_of, curves):
         f"{len(away)} curves: half within {half:.1g} of an error, nine of ten within {most:.1g}; {elsewhere} elsewhere"
     )
     assert len(away) > 0.6 * len(curves)
+    assert half < 1e-6
     assert most < 0.01
     assert elsewhere <= OTHERWISE * len(curves)
 

@@ -116,6 +116,25 @@ def test_a_valley_is_told_and_another_question_is_fitted(blank, tmp_path):
     playwright.expect(blank.page.locator("#fit-numbers")).to_contain_text("not fixed by these data")
 
 
+DROP = """(text) => {
+  const data = new DataTransfer();
+  data.items.add(new File([text], "pull.csv", { type: "text/csv" }));
+  document.getElementById("fit-text").dispatchEvent(new DragEvent("drop", { dataTransfer: data, cancelable: true }));
+}"""
+
+
+def test_a_file_is_dropped(blank):
+    blank.show("")
+    blank.page.evaluate(DROP, "gap (um);F (uN);error (uN);time (s)\n0,0;3,0;0,1;0\n1,0;2,0;0,1;1\n2,0;1,5;0,1;2\n")
+    chart = blank.page.locator("#fit-chart")
+    playwright.expect(chart).to_have_attribute("aria-label", "3 measured points of the force")
+    blank.choose("volume")
+    playwright.expect(blank.page.get_by_role("checkbox", name="evaporation rate")).to_be_visible()  # it has times
+    blank.page.evaluate(DROP, "jpk\0\1\2")
+    told = "curve: 'pull.csv' is no text; files of instruments are read by pendular fit"
+    playwright.expect(blank.page.locator("#fit-wrong-text")).to_have_text(told)
+
+
 def test_what_is_wrong_is_said_beside_its_field(blank):
     blank.show("")
     field = blank.page.get_by_role("textbox", name="Measured curve")
