@@ -1,4 +1,5 @@
-# Exact bridges between two grains that are pulled apart.
+# Exact bridges between two grains that are pulled apart. Not run where it was written: no Julia was at hand; its calls are
+# compared with pendular.h.
 #
 # pendular export library --out lib
 # julia exact.jl lib/libpendular.so
