@@ -141,6 +141,8 @@ def test_what_cannot_be_is_refused_in_one_line(folder, monkeypatch):
         ({"table": walls, "suction": 1.0, **tension}, r"table: .* has two contact angles; grains have one"),
         ({"table": suction, "wall_table": volume, "suction": 1.0, **tension}, r"wall_table: .* does not hold"),
         ({"table": suction, "suction": 1.0, "surface_tension": 0.0}, r"surface_tension: 0.0 is not positive"),
+        ({"table": suction, "suction": 1.0, "film": 1e-15, **tension}, r"film: .* holds the suction, and a reservoir"),
+        ({"table": volume, "volume": 1.0, "film": 1e-15, "share": 1.5, **tension}, r"share: 1.5 is not in \(0, 1\]"),
     ):
         with pytest.raises(ValueError, match=rf"^{reason}[^\n]*$"):
             pendular_yade.Bridges(**given)
@@ -271,6 +273,114 @@ def test_grains_on_their_ways_have_bridges_over_faces_and_beside_clumps(folder, 
         bridged = now
     assert seen > 20
     assert len(bridged) > 20
+
+
+def liquid_of_a_step(table, gaps, former, films, most, share):
+    """Bridges and films after a step, by the rules of the page: {(i, j): volume}, with j negative for a wall."""
+
+    def end(pair, volume):
+        radii = tuple(films[n][1] if n >= 0 else math.inf for n in pair)
+        mean = 2.0 / sum(1.0 / r for r in radii)
+        return 0.0 if volume < table.reduced[0] * mean**3 else float(table.rupture_distance(volume, *radii, TENSION))
+
+    liquid = {number: volume for number, (volume, _) in films.items()}
+    bridges = {}
+    for pair, volume in former.items():
+        if all(n < 0 or n in liquid for n in pair) and gaps[pair] < end(pair, volume):
+            bridges[pair] = volume
+            continue
+        for n in pair:  # one of a grain that is gone leaves half
+            if n in liquid:
+                liquid[n] += volume * (1.0 if min(pair) < 0 else 0.5)
+    forming = [pair for pair, gap in gaps.items() if gap <= 0.0 and pair not in bridges]
+    count = {number: sum(number in pair for pair in forming) for number in liquid}
+    offer = {number: share * liquid[number] / max(count[number], 1) for number in liquid}
+    for pair in forming:
+        offered = [offer.get(n, 0.0) for n in pair]
+        volume = min(most, sum(offered))
+        if end(pair, volume) > max(gaps[pair], 0.0):
+            bridges[pair] = volume
+            for n, part in zip(pair, offered, strict=True):
+                if n in liquid:
+                    liquid[n] -= volume * part / sum(offered)
+    return bridges, liquid
+
+
+@in_yade
+@pytest.mark.parametrize("is_periodic", [True, False])
+def test_liquid_goes_from_grains_to_bridges_and_back(folder, is_periodic):
+    """Films and volumes of every step as the rules have them; the sum stays, but for a grain that goes with its own."""
+    seed = int(np.random.SeedSequence().generate_state(1)[0])
+    print("seed", seed)
+    random, table = np.random.default_rng(seed), tables()["volume"]
+    count, radius, most, share = 50, 50e-6, 2e-15, 0.6
+    radii = random.uniform(0.7, 1.0, count) * radius
+    cell = np.eye(3) * 7.0 * radius
+    films = np.where(random.random(count) < 0.2, 0.0, random.uniform(0.1, 1.5, count) * most)
+    walls = [] if is_periodic else [1.0 * radius, 6.0 * radius]
+    given = {
+        "cell": cell.tolist() if is_periodic else None,
+        "rate": (2e3 * random.uniform(-1.0, 1.0, (3, 3))).tolist(),
+        "places": random.uniform(0.0, 7.0 * radius, (count, 3)).tolist(),
+        "radii": radii.tolist(),
+        "velocities": random.normal(0.0, 2.0, (count, 3)).tolist(),
+        "clumps": [[0, 1, 2], [3, 4]],
+        "walls": walls,
+        "engine": {
+            "table": "volume.bridges", "volume": most, "surface_tension": TENSION, "skin": 2e-6, "share": share,
+            "film": {str(n): volume for n, volume in enumerate(films.tolist())},
+        },
+        "step": 1e-6,
+        "steps": 24,
+        "erased": {"5": 40},
+        "added_at": 10,
+        "added": (0.5 * cell.sum(axis=1)).tolist(),
+    }  # fmt: skip
+    (folder / "moving.json").write_text(json.dumps(given))
+    said = simulated(folder, SCRIPT.with_name("moving.py"))
+    assert (folder / "moved.json").is_file(), said
+    steps = json.loads((folder / "moved.json").read_text())
+    (folder / "moved.json").unlink()
+    clump_of = {member: n for n, members in enumerate(given["clumps"]) for member in members}
+    sizes, bridges, liquid, seen = dict(enumerate(radii.tolist())), {}, dict(enumerate(films.tolist())), 0
+    total, last = films.sum(), set(range(count))
+    side_of = {count + len(given["clumps"]) + n: -1 - n for n in range(len(walls))}  # ids of walls
+    for step in steps:
+        ids, places = step["ids"], np.array(step["places"])
+        way = places[None] - places[:, None]
+        distance = np.linalg.norm(shortest(way, np.array(step["cell"])) if is_periodic else way, axis=-1)
+        gaps = {
+            (i, j): distance[a, b] - sizes.get(i, radii[0]) - sizes.get(j, radii[0])
+            for a, i in enumerate(ids) for b, j in enumerate(ids)
+            if i < j and not (i in clump_of and clump_of[i] == clump_of.get(j))
+        }  # fmt: skip
+        gaps |= {
+            (i, -1 - n): abs(places[a, 2] - at) - sizes.get(i, radii[0])
+            for n, at in enumerate(walls) for a, i in enumerate(ids)
+        }  # fmt: skip
+        gone = last - set(ids)
+        total -= sum(
+            liquid[n] + sum(0.5 * v for pair, v in bridges.items() if n in pair and min(pair) >= 0) for n in gone
+        )
+        total -= sum(v for pair, v in bridges.items() for n in gone if n in pair and min(pair) < 0)
+        last = set(ids)
+        known = {number: (liquid.get(number, 0.0), sizes.get(number, radii[0])) for number in ids}
+        now, liquid = liquid_of_a_step(table, gaps, bridges, known, most, share)
+        told = {
+            tuple(sorted((int(one), side_of.get(int(other), int(other))), reverse=int(other) in side_of)): volume
+            for (one, other, *_), volume in zip(step["bridges"], step["volumes"], strict=True)
+        }
+        assert told.keys() == now.keys()
+        assert all(volume == pytest.approx(now[pair], rel=1e-9) for pair, volume in told.items())
+        found = {int(number): volume for number, volume in step["films"].items()}
+        assert found.keys() == liquid.keys()
+        np.testing.assert_allclose([found[n] for n in ids], [liquid[n] for n in ids], rtol=0.0, atol=1e-9 * most)
+        assert sum(found.values()) + sum(told.values()) == pytest.approx(total, rel=1e-12)
+        seen += len(bridges.keys() ^ now.keys())
+        bridges = now
+    assert seen > 40
+    assert len(bridges) > 10
+    assert is_periodic or any(min(pair) < 0 for pair in bridges)
 
 
 @in_yade

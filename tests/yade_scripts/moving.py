@@ -1,7 +1,8 @@
 """Run by YADE: grains on their ways, some of them in clumps, in a periodic cell that is sheared or in none.
 
-Reads ``moving.json``: cell, places, radii, velocities, clumps, the rate of the cell, and what the engine is given.
-Writes ``moved.json``: for each step the cell, the places, the ids and the forces on all grains, and the bridges.
+Reads ``moving.json``: cell, places, radii, velocities, clumps, the rate of the cell, places of walls, and what the
+engine is given. Writes ``moved.json``: for each step the cell, the places, the ids and the forces on all grains, the
+bridges with their volumes, and the films.
 """
 
 import json
@@ -11,7 +12,7 @@ sys.path.append("engine")
 
 from pendular_yade import Bridges
 from yade import Matrix3, O
-from yade.utils import sphere
+from yade.utils import sphere, wall
 from yade.wrapper import ForceResetter, FrictMat, NewtonIntegrator, PyRunner
 
 with open("moving.json") as file:
@@ -26,6 +27,10 @@ for place, radius, velocity in zip(given["places"], given["radii"], given["veloc
     O.bodies[O.bodies.append(sphere(place, radius))].state.vel = velocity
 for members in given["clumps"]:
     O.bodies.clump(members)
+for place in given.get("walls", []):
+    O.bodies.append(wall(place, axis=2))
+if isinstance(given["engine"].get("film"), dict):
+    given["engine"]["film"] = {int(number): volume for number, volume in given["engine"]["film"].items()}
 bridges = Bridges(**given["engine"])
 O.engines = [
     ForceResetter(),
@@ -39,14 +44,17 @@ steps = []
 
 def look():
     """What the engine has just said, at the places for which it did."""
-    grains = [body for body in O.bodies if not body.isClump]
+    grains = [body for body in O.bodies if body.shape.__class__.__name__ == "Sphere"]
+    found = bridges.found()
     steps.append(
         {
             "cell": [[O.cell.hSize[i][k] for k in range(3)] for i in range(3)] if given["cell"] else None,
             "ids": [body.id for body in grains],
             "places": [list(body.state.pos) for body in grains],
             "forces": [list(O.forces.f(body.id)) for body in grains],
-            "bridges": [row.tolist()[:4] for row in bridges.found()],
+            "bridges": [row.tolist()[:4] for row in found],
+            "volumes": found["volume"].tolist(),
+            "films": bridges.films(),
         }
     )
 

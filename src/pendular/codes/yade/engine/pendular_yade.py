@@ -47,9 +47,17 @@ class Bridges:
         Whether all pairs within reach have a bridge at the first step, and not only those that touch.
     skin : float, optional
         How far two grains may approach before neighbours are sought anew; else a tenth of the smallest radius, [m].
+    film : float or dict, optional
+        Liquid on each sphere, or on those whose ids are given, [m3]. Then a bridge takes its liquid from its two
+        grains, at most `volume`, and gives it back when it breaks.
+    share : float
+        What a grain offers of its film to the bridges that form on it in a step.
     """
 
-    def __init__(self, table, *, surface_tension, suction=None, volume=None, wall_table=None, distant=False, skin=None):
+    def __init__(
+        self, table, *, surface_tension, suction=None, volume=None, wall_table=None, distant=False, skin=None,
+        film=None, share=1.0,
+    ):  # fmt: skip
         self._c = _library()
         self._grains = self._opened(table)
         self._walls = self._grains if wall_table is None else self._opened(wall_table)
@@ -64,28 +72,48 @@ class Bridges:
             raise ValueError(f"{name}: is what {str(table)!r} holds; give it, and it alone")
         if not surface_tension > 0.0:
             raise ValueError(f"surface_tension: {surface_tension!r} is not positive")
+        if film is not None and not is_volume:
+            raise ValueError(f"film: {str(table)!r} holds the suction, and a reservoir gives the liquid")
+        if not 0.0 < share <= 1.0:
+            raise ValueError(f"share: {share!r} is not in (0, 1]")
         self.surface_tension = surface_tension
+        self._given_film, self.share = film, share
         self._name, self._forms_apart, self._skin = name, distant, skin
-        self._bodies = None
+        self._bodies, self._former_walls = None, set()
         self._ids = np.empty(0, int)
         self._first = self._second = np.empty(0, np.int32)
         self._has_bridge = np.empty(0, np.uint8)
+        self._film, self._volumes = np.empty(0), np.empty(0)
 
     # What is asked ---------------------------------------------------------------------------------------------------
 
     def found(self):
-        """The bridges of the last step, as a structured array: two ids, separation, force, liquid, energy.
+        """The bridges of the last step, as a structured array: two ids, separation, force, liquid, energy, volume.
 
         The liquid is the volume of a bridge under suction, [m3], and its suction at constant volume, [Pa].
         """
         at = np.flatnonzero(self._has_bridge)
-        kinds = [("id1", int), ("id2", int), *((each, float) for each in ("separation", "force", "liquid", "energy"))]
+        numbers = ("separation", "force", "liquid", "energy", "volume")
+        kinds = [("id1", int), ("id2", int), *((each, float) for each in numbers)]
         rows = np.empty(at.size, kinds)
         rows["id1"], rows["id2"] = self._ids[self._first[at]], self._ids[self._second[at]]
         rows["separation"], rows["force"] = self._separation[at], self._attraction[at]
         for n, pair in enumerate(at):
             rows["liquid"][n], rows["energy"][n] = (self._value(asked, pair) for asked in (_LIQUID, _ENERGY))
+        if self._given_film is not None:
+            rows["volume"] = self._volumes[at]
+        else:
+            rows["volume"] = self.held if self._name == "volume" else rows["liquid"]
         return rows
+
+    def films(self):
+        """Liquid on each sphere, [m3], as a dictionary of ids; for one that is changed, `set_film`."""
+        spheres = self._spheres if self._bodies else np.empty(0, int)
+        return dict(zip(self._ids[spheres].tolist(), self._film[spheres].tolist(), strict=True))
+
+    def set_film(self, number, volume):
+        """Liquid on the sphere of an id, [m3], after the first step."""
+        self._film[np.searchsorted(self._ids, number)] = volume
 
     def step(self):
         """Add the forces of the bridges, for YADE's next step."""
@@ -103,14 +131,22 @@ class Bridges:
             self._seek(places, cell)
         beside = np.zeros((0, 3)) if cell is None else np.ascontiguousarray(self._shift @ cell.T)
         forces, place = np.zeros_like(places), ctypes.c_size_t()
-        arrays = (self._first, self._second, beside, self._has_bridge), (places, self._radius, self._axis, forces)
-        pairs, bodies = ([ctypes.c_void_p(each.ctypes.data) for each in group] for group in arrays)
-        out = [ctypes.c_void_p(each.ctypes.data) for each in (self._separation, self._attraction)]
-        status = self._c.pendular_yade_step(
-            self._grains, self._walls, ctypes.c_double(self.held), ctypes.c_double(self.surface_tension),
-            int(self._forms_apart), int(cell is not None), ctypes.c_size_t(self._first.size), *pairs,
-            ctypes.c_size_t(self._radius.size), *bodies, *out, ctypes.byref(place),
-        )  # fmt: skip
+        pairs = (*map(_at, (self._first, self._second, beside, self._has_bridge)), self._at_volumes())
+        bodies = (ctypes.c_size_t(self._radius.size), *map(_at, (places, self._radius, self._axis)))
+        how = int(self._forms_apart), int(cell is not None), ctypes.c_size_t(self._first.size)
+        held, tension = ctypes.c_double(self.held), ctypes.c_double(self.surface_tension)
+        status = 0
+        if self._given_film is not None:
+            offer = np.empty_like(self._film)
+            status = self._c.pendular_yade_exchange(
+                self._grains, self._walls, held, ctypes.c_double(self.share), tension, *how, *pairs, *bodies,
+                _at(self._film), _at(offer), ctypes.byref(place),
+            )  # fmt: skip
+        if not status:
+            out = map(_at, (forces, self._separation, self._attraction))
+            status = self._c.pendular_yade_step(
+                self._grains, self._walls, held, tension, *how, *pairs, *bodies, *out, ctypes.byref(place)
+            )
         if status:
             raise ValueError(self._out_of_range(place.value))
         self._forms_apart = False
@@ -124,6 +160,7 @@ class Bridges:
         """Ids, radii and walls of the simulation."""
         bodies = list(omega.bodies)
         bridged = self._ids[np.stack([self._first, self._second])[:, self._has_bridge > 0]]
+        volumes, films = self._volumes[self._has_bridge > 0], dict(zip(self._ids.tolist(), self._film, strict=True))
         self._bodies = len(omega.bodies), len(bodies)
         ids = np.array([body.id for body in bodies])
         kinds = [body.shape.__class__.__name__ for body in bodies]
@@ -135,9 +172,20 @@ class Bridges:
         if omega.periodic and self._planes.size:
             raise ValueError("bodies: walls have no place in a periodic cell")
         self._sought = None
-        bridged = bridged[:, np.isin(bridged, ids).all(axis=0)]  # bridges of bodies that are still there
-        self._first, self._second = (np.searchsorted(ids, column).astype(np.int32) for column in bridged)
-        self._has_bridge = np.ones(self._first.size, np.uint8)
+        self._film = np.array([films.get(number, self._first_film(number)) for number in ids.tolist()]) * (
+            self._axis < 0
+        )
+        is_there = np.isin(bridged, ids)
+        for (one, other), (its, others), volume in zip(bridged.T, is_there.T, volumes, strict=True):
+            if (
+                its != others
+            ):  # half of the liquid stays with the grain that is left, and all of it at a wall that is gone
+                left = np.searchsorted(ids, one if its else other)
+                self._film[left] += volume * (1.0 if other in self._former_walls else 0.5) * (self._axis[left] < 0)
+        self._former_walls = set(ids[self._planes].tolist())
+        stands = is_there.all(axis=0)  # bridges of bodies that are still there
+        self._first, self._second = (np.searchsorted(ids, column).astype(np.int32) for column in bridged[:, stands])
+        self._has_bridge, self._volumes = np.ones(self._first.size, np.uint8), volumes[stands]
 
     def _is_stale(self, places, cell):
         """Whether grains may have come near that are no neighbours yet."""
@@ -173,11 +221,32 @@ class Bridges:
         both = both[is_free]
         if cell is not None:
             self._shift = self._shift[is_free]
-        kept = self._keys(self._first, self._second)[self._has_bridge > 0]
-        keys = self._keys(*both.T)
+        kept, volumes = self._keys(self._first, self._second)[self._has_bridge > 0], self._volumes[self._has_bridge > 0]
+        lost = ~np.isin(kept, keys := self._keys(*both.T))
+        for key, volume in zip(kept[lost].tolist(), volumes[lost], strict=True):  # left behind since they were sought
+            self._give_back(*divmod(key, self._radius.size), volume)
         self._first, self._second = (np.ascontiguousarray(column, np.int32) for column in both.T)
         self._has_bridge = np.isin(keys, kept).astype(np.uint8)
+        self._volumes = np.zeros(keys.size)
+        if kept.size:
+            order = np.argsort(kept)
+            at = np.searchsorted(kept, keys[self._has_bridge > 0], sorter=order)
+            self._volumes[self._has_bridge > 0] = volumes[order[at]]
         self._separation, self._attraction = np.empty(keys.size), np.empty(keys.size)
+
+    def _first_film(self, number):
+        """Liquid on a sphere that has just come."""
+        if isinstance(self._given_film, dict):
+            return self._given_film.get(number, 0.0)
+        return self._given_film or 0.0
+
+    def _give_back(self, one, other, volume):
+        """The liquid of a bridge that broke, to its grains."""
+        walls = self._axis[[one, other]] >= 0
+        self._film[[one, other]] += np.where(walls, 0.0, volume / np.count_nonzero(~walls))
+
+    def _at_volumes(self):
+        return ctypes.c_void_p() if self._given_film is None else _at(self._volumes)
 
     def _keys(self, first, second):
         """A number for each pair, whichever of the two is first."""
@@ -191,7 +260,8 @@ class Bridges:
         sizes = np.geomspace(radii.min(), radii.max(), _SIZES)
         partners = [(self._grains, size, other) for size in sizes for other in sizes]
         partners += [(self._walls, size, np.inf) for size in sizes] if self._planes.size else []
-        ends = [self._asked(table, _RUPTURE, 0.0, radius1, radius2) for table, radius1, radius2 in partners]
+        held = max(self.held, self._volumes.max(initial=-np.inf)) if self._volumes.size else self.held
+        ends = [self._asked(table, _RUPTURE, 0.0, held, *radii) for table, *radii in partners]
         return _MARGIN * float(np.nan_to_num(ends).max())
 
     # The table -------------------------------------------------------------------------------------------------------
@@ -208,8 +278,8 @@ class Bridges:
         self._c.pendular_yade_about(table, ctypes.c_void_p(numbers.ctypes.data))
         return numbers.tolist()
 
-    def _asked(self, table, asked, separation, radius1, radius2):
-        numbers = map(ctypes.c_double, (separation, self.held, radius1, radius2, self.surface_tension))
+    def _asked(self, table, asked, separation, held, radius1, radius2):
+        numbers = map(ctypes.c_double, (separation, held, radius1, radius2, self.surface_tension))
         return self._c.pendular_yade_value(table, asked, *numbers)
 
     def _partner(self, pair):
@@ -221,7 +291,8 @@ class Bridges:
 
     def _value(self, asked, pair):
         table, radius1, radius2 = self._partner(pair)
-        return self._asked(table, asked, self._separation[pair], radius1, radius2)
+        held = self.held if self._given_film is None else self._volumes[pair]
+        return self._asked(table, asked, self._separation[pair], held, radius1, radius2)
 
     def _out_of_range(self, pair):
         return self._told(*self._partner(pair))
@@ -231,6 +302,11 @@ class Bridges:
         pair = f"radii {radius1:g} and {radius2:g} and surface tension {self.surface_tension:g}"
         covered = f"reduced {self._name} {low:g} to {high:g}, radius ratio {least:g} to {largest:g}"
         return f"{self._name}: {self.held:g} with {pair} is out of the range of its table: {covered}"
+
+
+def _at(numbers):
+    """Where C finds the numbers of an array."""
+    return ctypes.c_void_p(numbers.ctypes.data)
 
 
 def _near_spheres(numbers, places, radii, far):
