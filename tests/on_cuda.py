@@ -7,6 +7,8 @@ makes Python of the scalar kernels as well.
 import json
 import sys
 from pathlib import Path
+from types import SimpleNamespace
+from typing import ClassVar
 
 import numpy as np
 from numba import cuda, typeof, types
@@ -14,6 +16,8 @@ from numba import cuda, typeof, types
 import pendular as pl
 from documents import assert_python_prints_what_it_says
 from pendular.ask import cuda as solver_on_gpu
+from pendular.ground import device
+from pendular.packing import cuda as packing_on_gpu
 from pendular.table import cuda as table_on_gpu
 from pendular.table import kernels
 
@@ -60,6 +64,76 @@ def simulate(folder):
         work_of[4, (out.size + 3) // 4](table.grid, *map(cuda.to_device, arguments), out)
         np.savez(folder / f"{name}.answers.npz", own_kernel=out.copy_to_host(), **found)
     check_arrays(table, *arguments)
+    if device.IS_SIMULATED:
+        check_lent(table, *arguments)
+    check_order(table, *arguments)
+    check_chunks(table, *arguments)
+
+
+class Lent:
+    """An array of some library on a device, which here is the memory of the host."""
+
+    streams: ClassVar = []
+
+    def __init__(self, array):
+        self.array, self.shape = array, array.shape
+
+    def __dlpack_device__(self):
+        return 2, 0
+
+    def __dlpack__(self, *, stream=None, **options):
+        self.streams.append(stream)
+        return self.array.__dlpack__(**options)
+
+    def __array_namespace__(self):
+        return SimpleNamespace(from_dlpack=lambda other: Lent(np.from_dlpack(other)))
+
+
+def check_lent(table, separation, control, radius1, radius2):
+    """Arrays of another library are read in their memory, and so is the answer given to it."""
+    gaps = Lent(separation[:6].reshape(2, 3).copy())
+    pair = (control[0], radius1[0], radius2[0], GAMMA)
+    expected = table.force(gaps.array, *pair)
+    found = table.force(gaps, Lent(np.full(1, pair[0])), *pair[1:])
+    assert isinstance(found, Lent)
+    assert np.array_equal(found.array, expected)
+    assert set(Lent.streams) == {1}, "that of the default, by its name in DLPack"
+    view = device._viewed(gaps, 0)
+    gaps.array[0, 0] = 3.0
+    assert view[0, 0] == 3.0
+    out = Lent(np.empty((2, 3)))
+    assert table.force(gaps, *pair, out=out) is out
+    assert np.array_equal(out.array, table.force(gaps.array, *pair))
+    host = np.empty((2, 3))
+    assert table.force(gaps, *pair, out=host) is host
+    assert np.array_equal(host, out.array)
+    assert "separation: is not a contiguous" in refusal(table.force, Lent(gaps.array.T), *pair)
+    assert "separation: is not a contiguous" in refusal(table.force, Lent(gaps.array.astype(np.float32)), *pair)
+
+
+def check_order(table, *arguments):
+    """Contacts in the order of their cells: each once, those of a cell together."""
+    order = table.order(*arguments, GAMMA)
+    assert np.array_equal(np.sort(order), np.arange(order.size))
+    grid = table.grid._replace(
+        **{name: getattr(table.grid, name).copy_to_host() for name in ("lines", "cuts", "rupture")}
+    )
+    cells = [table_on_gpu.cell_number(grid, *row, GAMMA) for row in np.column_stack(arguments)[order].tolist()]
+    assert cells == sorted(cells)
+    assert len(set(cells)) > 5
+    there = table.order(cuda.to_device(arguments[0]), *arguments[1:], GAMMA)
+    assert np.array_equal(np.sort(there.copy_to_host()), np.arange(order.size))
+
+
+def check_chunks(table, *arguments):
+    """Much on the host goes by chunks; one element for all stays."""
+    expected = table.force(*arguments, GAMMA)
+    device._CHUNK = 7
+    assert np.array_equal(table.force(*arguments, GAMMA), expected, equal_nan=True)
+    out = np.empty((6, 8))
+    square = [argument.reshape(6, 8) for argument in arguments]
+    assert table.force(*square, np.full((6, 1), GAMMA), out=out) is out
+    assert np.array_equal(out.ravel(), expected, equal_nan=True)
 
 
 def solve(folder):
@@ -84,6 +158,44 @@ def share(folder):
         arguments = np.load(path)["arguments"]
         found = {asked: getattr(table, asked)(*kernel_arguments(asked, arguments), GAMMA) for asked in NAMES}
         np.savez(folder / path.name.replace(".shared", ".by_warps"), **found)
+
+
+def step(folder, kind):
+    """Two steps of some grains, with forces added up in any order and in that of the list, and energy."""
+    if kind == "shared":
+        from simulated_warps import WARP, let_warps_exchange
+
+        let_warps_exchange()
+        packing_on_gpu.THREADS = WARP
+        packing_on_gpu.blocks_for = lambda count: -(-count // WARP)
+    for path in sorted(folder.glob("*.grains.npz")):
+        table = table_on_gpu.to_device(pl.load_table(folder / path.name.replace(".grains", "")))
+        pairs, positions, moved, other_pairs, radii, control, reach = np.load(path).values()
+        asked = (radii, float(control), GAMMA)
+        first = packing_on_gpu.contact_forces(
+            table, pairs, positions, *asked, formation_distance=float(reach), with_energy=True
+        )
+        state = packing_on_gpu.carried(first.state, pairs, other_pairs, radii.size)
+        assert "5 of 5" in refusal(packing_on_gpu.carried, np.ones(5), pairs[:5], other_pairs[:0], radii.size)
+        again = packing_on_gpu.contact_forces(table, cuda.to_device(other_pairs), moved, *asked, state=state)
+        sums = packing_on_gpu.sums_in_order(other_pairs, radii.size)
+        summed = packing_on_gpu.contact_forces(table, other_pairs, moved, *asked, state=state, sums=sums)
+        np.savez(
+            folder / path.name.replace(".grains", f".step.{kind}"),
+            force=first.force, virial=first.virial, energy=first.energy, attraction=first.attraction,
+            moved=again.force.copy_to_host(), moved_virial=again.virial.copy_to_host(), summed=summed.force,
+            stood=first.state, stands=again.state.copy_to_host(),
+        )  # fmt: skip
+    wrong = np.array([(0, 0), (0, radii.size), (-1, 2), (0, 1)])
+    lost = packing_on_gpu.contact_forces(table, wrong, positions * 0.0, *asked, formation_distance=1.0)
+    assert np.isnan(lost.attraction).all()
+    assert not lost.force.any()
+    nothing = packing_on_gpu.contact_forces(table, np.empty((0, 2), int), positions, *asked)
+    assert not nothing.force.any()
+    assert "positions: an array of shape (1, 3) is not" in refusal(
+        packing_on_gpu.contact_forces, table, wrong, positions[:1], *asked
+    )
+    assert "pairs: an array of float64" in refusal(packing_on_gpu.contact_forces, table, wrong * 1.0, positions, *asked)
 
 
 def check_arrays(table, separation, control, radius1, radius2):
@@ -145,7 +257,7 @@ def compile_all(folder, capability):
     (folder / f"code.{capability}.json").write_text(json.dumps(found))
 
 
-TASKS = {"simulate": simulate, "share": share, "solve": solve, "page": run_page, "compile": compile_all}
+TASKS = {"simulate": simulate, "share": share, "step": step, "solve": solve, "page": run_page, "compile": compile_all}
 
 if __name__ == "__main__":
     TASKS[sys.argv[1]](Path(sys.argv[2]), *sys.argv[3:])

@@ -14,6 +14,7 @@ import pytest
 import pendular as pl
 from on_cuda import GAMMA, NAMES, PAGE_ASKS, kernel_arguments
 from pendular.ground.compile import compiled
+from pendular.packing.forces import contact_energy
 from pendular.table import kernels
 from pendular.table.polynomial import CELL, LANES, RUPTURE_CELL, by_halves, in_three, in_two
 
@@ -164,6 +165,46 @@ def test_a_kernel_of_ones_own_may_ask(name, simulated):
 def test_the_page_does_what_it_shows(folder):
     done = run("page", folder, **SIMULATOR)
     assert done.returncode == 0, done.stderr
+
+
+def grains(table, random):
+    """Grains that overlap or lie apart by up to the rupture distance, moved a little, and their pairs in two orders."""
+    radii = random.uniform(45e-6, 52e-6, 12)
+    control = 1.4e-3 * 50e-6**3 if table.control == "volume" else 50.0 * GAMMA / 50e-6
+    positions = random.uniform(0.0, 200e-6, (12, 3))
+    first, second = np.triu_indices(12, 1)
+    gap = np.linalg.norm(positions[first] - positions[second], axis=1) - radii[first] - radii[second]
+    pairs = np.column_stack([first, second])[gap < 40e-6]
+    other, moves = random.permutation(pairs), random.uniform(-30e-6, 30e-6, (12, 3))
+    return pairs, positions, positions + moves, other, radii, np.array(control), np.array(3e-6)
+
+
+@pytest.mark.parametrize("kind", ["alone", "shared"])
+def test_a_step_is_that_of_the_processor(kind, folder, tmp_path):
+    print(f"seed {SEED}")
+    random = np.random.default_rng(SEED)
+    asked = {}
+    for name in ("suction", "volume"):
+        shutil.copy(folder / f"{name}.npz", tmp_path)
+        asked[name] = grains(pl.load_table(folder / f"{name}.npz"), random)
+        np.savez(tmp_path / f"{name}.grains.npz", *asked[name])
+    done = run("step", tmp_path, kind, **SIMULATOR)
+    assert done.returncode == 0, done.stderr
+    for name, (pairs, positions, moved, _, radii, control, reach) in asked.items():
+        table, found = pl.load_table(folder / f"{name}.npz"), np.load(tmp_path / f"{name}.step.{kind}.npz")
+        step = pl.contact_forces(table, pairs, positions, radii, control, GAMMA, formation_distance=reach)
+        energy = contact_energy(table, step.state, positions, radii, GAMMA)
+        np.testing.assert_allclose(found["energy"], energy, rtol=1e-12)
+        next_step = pl.contact_forces(table, pairs, moved, radii, control, GAMMA, state=step.state)
+        assert 0 < len(next_step.attraction) < len(step.attraction) < len(pairs)
+        for key, expected in (
+            ("force", step.force), ("virial", step.virial), ("moved", next_step.force),
+            ("summed", next_step.force), ("moved_virial", next_step.virial),
+        ):  # fmt: skip
+            np.testing.assert_allclose(found[key], expected, rtol=1e-12, atol=1e-12 * np.abs(expected).max())
+        assert np.isfinite(found["stood"]).sum() == len(step.attraction)
+        assert np.isfinite(found["stands"]).sum() == len(next_step.attraction)
+        np.testing.assert_allclose(np.sort(found["attraction"])[-len(step.attraction) :], np.sort(step.attraction))
 
 
 def solver_contacts(held, random):

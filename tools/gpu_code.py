@@ -22,7 +22,7 @@ from numba.core import config
 import pendular as pl
 from pendular.ask import cuda as ask_cuda
 from pendular.ask.fields import room_for
-from pendular.ground.device import LEAN
+from pendular.packing import cuda as packing_cuda
 from pendular.table import cuda as table_cuda
 from pendular.table.packed import pack
 
@@ -52,7 +52,7 @@ class Assembled(NamedTuple):
 def gpu_kernels(table: pl.Table) -> list[GpuKernel]:
     """All kernels of the package."""
     grid, packed = typeof(table.grid), typeof(pack(table.grid))
-    row, limit = types.float64[::1], LEAN["max_registers"]
+    row, limit = types.float64[::1], table_cuda.REGISTERS
     found = [
         GpuKernel(
             f"table: {scalar.__name__.strip('_')}",
@@ -67,6 +67,17 @@ def gpu_kernels(table: pl.Table) -> list[GpuKernel]:
         )
         for scalar in table_cuda.SHARED
     ]  # fmt: skip
+    whole, listed = types.float64[:, ::1], types.int64[:, ::1]
+    stepping = (grid, packed, listed, whole, row, row, types.float64, types.float64, *4 * (row,), whole, whole)
+    for name, with_energy, adds in (
+        ("with its energy", True, True),
+        ("without it", False, True),
+        ("forces summed in order", False, False),
+    ):
+        pull, registers = packing_cuda.pull_by(with_energy)
+        loop = packing_cuda.step_loop(pull, adds, registers)
+        signature = types.void(*stepping, types.int64[::1], row)
+        found.append(GpuKernel(f"step, {name}", loop, signature, registers, True))
     room, statuses = typeof(room_for(1, ("force",))), types.int8[::1]
     asking = (types.int64, *6 * (row,), types.float64, types.float64[:, ::1], room, statuses, row)
     found.append(GpuKernel("solver: force", ask_cuda.loop(), types.void(*asking), None, False))
@@ -137,11 +148,13 @@ def _instructions(code: bytes) -> Iterator[tuple[int, int]]:
             yield from struct.iter_unpack("<QQ", code[offset : offset + length])
 
 
-def table_of_code(table: pl.Table, capability: tuple[int, int]) -> str:
+def table_of_code(table: pl.Table, capability: tuple[int, int], only: str = "") -> str:
     """Registers, spills and wide loads of all kernels, as a table."""
     architecture = "sm_{}{}".format(*capability)
     lines = ["| kernel | registers | bytes spilled | loads of 16 bytes |", "|---|---:|---:|---:|"]
     for name, loop, signature, registers, _ in gpu_kernels(table):
+        if only not in name:
+            continue
         found = assembled(ptx_of(loop, signature, capability), architecture, registers)
         lines.append(f"| {name} | {found.registers} | {found.spilled} | {found.wide_loads} |")
     return "\n".join(lines)
@@ -153,4 +166,4 @@ if __name__ == "__main__":
     if assembler() is None:
         sys.exit("ptxas is not installed; it comes with the CUDA toolkit")
     some = pl.tabulate(np.deg2rad(20), reduced=(100.0, 200.0), radius_ratio=(1, 2), tolerance=1e-5)
-    print(table_of_code(some, (int(major), int(minor))))  # noqa: T201
+    print(table_of_code(some, (int(major), int(minor)), *sys.argv[2:]))  # noqa: T201

@@ -5,7 +5,7 @@ the whole solver, on the processor.
 """
 
 import math
-from functools import cache
+from functools import cache, partial
 from typing import Any, Literal
 
 import numpy as np
@@ -15,9 +15,23 @@ from ..exact import batch
 from ..exact.batch import OPEN
 from ..exact.equations import SUCTION, VOLUME
 from ..exact.state import State
-from ..ground.check import one_of, scalar
+from ..ground.check import one_of, result_array, scalar
 from ..ground.compile import compiled, kernel
-from ..ground.device import THREADS, Operand, blocks_for, cuda, flat, on_host, read, result_for, returned, types
+from ..ground.device import (
+    THREADS,
+    Operand,
+    blocks_for,
+    cuda,
+    flat,
+    in_chunks,
+    is_large,
+    is_on_device,
+    on_host,
+    read,
+    result_for,
+    returned,
+    types,
+)
 from ..ground.rows import element
 from .face import bridge
 from .fields import Room, room_for
@@ -119,13 +133,16 @@ def bridge_force(
     tension = scalar("surface_tension", surface_tension, "N/m")
     arguments = (separation, control, radius1, radius2, contact_angle1, contact_angle2)
     work = read(_UNITS, arguments)
+    fill = partial(_fill, VOLUME if held == "volume" else SUCTION, tension)
+    if is_large(work) and not is_on_device(out):
+        return in_chunks(work, result_array(out, work.shape), fill)
     result = result_for(out, work)
     if result.size:
-        _fill(VOLUME if held == "volume" else SUCTION, flat(work), tension, result.reshape(result.size), work.stream)
+        fill(flat(work), result.reshape(result.size), work.stream)
     return returned(result, out, work)
 
 
-def _fill(control: int, operands: list[Any], tension: float, out: Any, stream: Any) -> None:
+def _fill(control: int, tension: float, operands: list[Any], out: Any, stream: Any) -> None:
     """Fill forces on the device, and let the processor answer what was left open."""
     room = Room(*(cuda.to_device(part, stream=stream) for part in room_for(out.size, ("force",))))
     statuses = cuda.device_array(out.size, np.int8, stream=stream)

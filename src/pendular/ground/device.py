@@ -7,7 +7,7 @@ Work is done on the stream of the first of them, and an answer goes back to its 
 import ctypes
 import math
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -24,16 +24,17 @@ from .compile import let_numba_call_kernels
 
 __all__ = [
     "IS_SIMULATED",
-    "LEAN",
-    "REGISTERS",
     "THREADS",
     "Operand",
     "Work",
+    "at_most",
     "blocks_for",
     "cuda",
     "flat",
     "handed_back",
     "home_of",
+    "in_chunks",
+    "is_large",
     "is_on_device",
     "on_host",
     "read",
@@ -56,8 +57,6 @@ _CUDA, _CUDA_MANAGED = 2, 13  # kinds of device of DLPack
 _LEGACY_DEFAULT, _PER_THREAD_DEFAULT = 1, 2  # names of streams there
 IS_SIMULATED: bool = config.ENABLE_CUDASIM  # type: ignore[attr-defined]
 
-REGISTERS = 128  # of a thread at most: 16 warps find room where a multiprocessor has 65536
-LEAN = {} if IS_SIMULATED else {"max_registers": REGISTERS}  # options of ``@cuda.jit`` that say so
 
 if not IS_SIMULATED:
     from numba.cuda.descriptor import cuda_target
@@ -73,6 +72,11 @@ class Work(NamedTuple):
     like: Any  # the first array on the device, None if there is none: the answer is of its library
     stream: Any
     waits: bool  # whether some library does not know of the stream, and might use its memory before the work is done
+
+
+def at_most(registers: int) -> dict[str, int]:
+    """Options of ``@cuda.jit`` for so many registers of a thread; the simulator has none."""
+    return {} if IS_SIMULATED else {"max_registers": registers}
 
 
 def blocks_for(count: int) -> int:
@@ -223,6 +227,85 @@ def returned(result: Any, out: Any, work: Work) -> Any:
     if not is_on_device(out):
         on_host(result, work.stream, out.reshape(-1))
     return out
+
+
+_CHUNK = 1 << 20  # rows that are sent at once
+_LANES = 3  # chunks on the way: one comes, one is worked on, one goes
+
+
+class _Slot(NamedTuple):
+    """Memory for a chunk that is on the way: on the host, from which the device copies by itself, and on the device."""
+
+    stream: Any
+    sent: list[Any]  # None for an operand of one element
+    there: list[Any]
+    result: Any
+    back: Any
+
+
+def is_large(work: Work) -> bool:
+    """Whether all is on the host, and so much that copies are worth to go on beside the work."""
+    return work.like is None and math.prod(work.shape) > _CHUNK
+
+
+def in_chunks(work: Work, result: Any, launch: Callable[[list[Any], Any, Any], None]) -> Any:
+    """Fill an array of the host by chunks: one is copied while another is worked on.
+
+    ``launch`` takes operands on the device in rows, room for the result, and the stream.
+    """
+    size = math.prod(work.shape)
+    rows = [
+        operand if operand.size == 1 else np.broadcast_to(operand, work.shape).reshape(-1) for operand in work.operands
+    ]
+    flat_result = result.reshape(-1)
+    slots = [_slot(rows) for _ in range(_LANES)]
+    going: list[tuple[_Slot, int, int]] = []
+    for number, begin in enumerate(range(0, size, _CHUNK)):
+        end = min(begin + _CHUNK, size)
+        if len(going) == _LANES:
+            _take(*going.pop(0), flat_result)
+        slot = slots[number % _LANES]
+        _send(slot, rows, begin, end)
+        operands = [
+            there if row.size == 1 else there[: end - begin] for row, there in zip(rows, slot.there, strict=True)
+        ]
+        launch(operands, slot.result[: end - begin], slot.stream)
+        slot.result[: end - begin].copy_to_host(slot.back[: end - begin], stream=slot.stream)
+        going.append((slot, begin, end))
+    for each in going:
+        _take(*each, flat_result)
+    return result
+
+
+def _slot(rows: list[Any]) -> _Slot:
+    """Room for a chunk of such rows; an operand of one element is sent here, once."""
+    stream = cuda.stream()
+    return _Slot(
+        stream,
+        [None if row.size == 1 else cuda.pinned_array(_CHUNK) for row in rows],
+        [
+            cuda.to_device(np.ascontiguousarray(row).reshape(-1), stream=stream)
+            if row.size == 1
+            else cuda.device_array(_CHUNK, stream=stream)
+            for row in rows
+        ],
+        cuda.device_array(_CHUNK, stream=stream),
+        cuda.pinned_array(_CHUNK),
+    )
+
+
+def _send(slot: _Slot, rows: list[Any], begin: int, end: int) -> None:
+    """Begin to copy a chunk to the device."""
+    for row, sent, there in zip(rows, slot.sent, slot.there, strict=True):
+        if sent is not None:
+            sent[: end - begin] = row[begin:end]
+            there[: end - begin].copy_to_device(sent[: end - begin], stream=slot.stream)
+
+
+def _take(slot: _Slot, begin: int, end: int, result: Any) -> None:
+    """Wait for a chunk, and put it in its place."""
+    wait_for(slot.stream)
+    result[begin:end] = slot.back[: end - begin]
 
 
 def on_host(array: Any, stream: Any, into: Any = None) -> Any:

@@ -4,34 +4,45 @@ Numba compiles the scalar kernels of ``pendular.table.kernels`` for the GPU as t
 ``@cuda.jit`` that calls them.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from importlib.util import find_spec
 from typing import Any, Literal
 
 import numpy as np
 
+from ..ground.check import result_array
 from ..ground.compile import compiled, kernel
 from ..ground.device import (
     IS_SIMULATED,
-    LEAN,
     THREADS,
     Operand,
+    at_most,
     blocks_for,
     cuda,
     flat,
+    handed_back,
+    in_chunks,
+    is_large,
+    is_on_device,
+    on_host,
     read,
     result_for,
     returned,
-)  # fmt: skip
+)
+from ..ground.device_groups import group
 from ..ground.rows import element
 from . import kernels, warps
 from .kernels import Grid
 from .packed import Packed, pack
+from .polynomial import CELL
 from .table import Table, operands_of
 
 __all__ = ["DeviceTable", "to_device"]
+
+REGISTERS = 128  # of a thread at most: 16 warps find room where a multiprocessor has 65536
 
 
 @kernel
@@ -40,6 +51,15 @@ def _rupture_distance(
 ) -> float:
     """The kernel of that name with the arguments of the others."""
     return kernels.rupture_distance(grid, control, radius1, radius2, surface_tension)
+
+
+@kernel
+def cell_number(
+    grid: Grid, separation: float, control: float, radius1: float, radius2: float, surface_tension: float
+) -> int:
+    """Cell in which the force of a contact is found."""
+    _, place, rupture, bend = kernels.find(grid, control, radius1, radius2, surface_tension)
+    return kernels.cell_of(grid, place, kernels.q_of(separation, rupture, bend))[0]
 
 
 @cache
@@ -70,7 +90,7 @@ def loop_by_warps(shared: Any) -> Any:
     """A function of `warps` over contacts, one for each thread; threads beyond the last keep their warp whole."""
     at = compiled(element)
 
-    @cuda.jit(**LEAN)
+    @cuda.jit(**at_most(REGISTERS))
     def loop(
         grid: Grid, packed: Packed, separation: Any, control: Any, radius1: Any, radius2: Any, surface_tension: Any,
         out: Any,
@@ -206,8 +226,31 @@ class DeviceTable:
         """Separation at which the bridge breaks, [m]."""
         return self._ask(_rupture_distance, out, 0.0, control, radius1, radius2, surface_tension)
 
+    def order(
+        self, separation: Operand, control: Operand, radius1: Operand, radius2: Operand, surface_tension: Operand
+    ) -> Any:
+        """Order of contacts by the cells of the table, in which they cost least; their order in a cell is any.
+
+        It waits for the device. Contacts change their cells slowly, so an order serves for many steps: take arrays, or
+        a list of pairs, in it.
+
+        Returns
+        -------
+        array
+            Numbers of the contacts, int64.
+        """
+        work = read(operands_of(self.control), (separation, control, radius1, radius2, surface_tension))
+        size = math.prod(work.shape)
+        cells = cuda.device_array(max(size, 1), np.int64, stream=work.stream)[:size]
+        if size:
+            loop_of(cell_number)[blocks_for(size), THREADS, work.stream](self.grid, *flat(work), cells)
+        found = group(cells, self.grid.force.size // CELL, work.stream, in_order=False).items[:size]
+        return on_host(found, work.stream) if work.like is None else handed_back(found, work.like, work.stream)
+
     def _ask(self, scalar: Callable[..., float], out: Any, *arguments: Operand) -> Any:
         work = read(operands_of(self.control), arguments)
+        if is_large(work) and not is_on_device(out):
+            return in_chunks(work, result_array(out, work.shape), partial(self._fill, scalar))
         result = result_for(out, work)
         if result.size > 0:
             self._fill(scalar, flat(work), result.reshape(result.size), work.stream)
