@@ -25,6 +25,11 @@ NAMES = ("force", "liquid", "stiffness", "energy", "rupture_distance")
 PAGE = Path(__file__).parents[1] / "docs" / "howto" / "gpu.md"
 PAGE_ASKS = {"contact_angle": np.deg2rad(20), "reduced": (1.0, 1e4)}
 GAMMA = 0.0728
+SOLVER_FIELDS = (
+    "separation", "suction", "volume", "force", "exists", "stable", "unstable_directions", "sideways_stable",
+    "neck_radius", "neck_inside", "contact_radius", "half_filling_angle", "liquid_gas_area", "wetted_area",
+    "surface_energy", "grand_potential", "stiffness", "capillary_tensor",
+)  # fmt: skip
 
 
 def kernel_arguments(name, arguments):
@@ -144,6 +149,14 @@ def solve(folder):
         there = solver_on_gpu.bridge_force(*map(cuda.to_device, arguments), GAMMA, held=held)
         assert np.array_equal(there.copy_to_host(), found, equal_nan=True)
         np.save(folder / f"solver.{held}.npy", found)
+        fields = solver_on_gpu.bridge_fields(*arguments, GAMMA, held=held, fields=SOLVER_FIELDS)
+        np.savez(folder / f"solver.{held}.fields.npz", **fields)
+    at_one = solver_on_gpu.bridge_fields(
+        cuda.to_device(arguments[0][:4]), *(a[:1] for a in arguments[1:]), GAMMA, held=held
+    )
+    assert list(at_one) == ["force", "volume", "suction", "exists"]
+    assert at_one["exists"].copy_to_host().dtype == bool
+    assert "fields[0]: 'neck' is not" in refusal(solver_on_gpu.bridge_fields, *arguments, GAMMA, fields=("neck",))
 
 
 def share(folder):

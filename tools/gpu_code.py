@@ -22,6 +22,7 @@ from numba.core import config
 import pendular as pl
 from pendular.ask import cuda as ask_cuda
 from pendular.ask.fields import room_for
+from pendular.exact.batch import ALL, FORCE_ALONE
 from pendular.packing import cuda as packing_cuda
 from pendular.table import cuda as table_cuda
 from pendular.table.packed import pack
@@ -78,9 +79,9 @@ def gpu_kernels(table: pl.Table) -> list[GpuKernel]:
         loop = packing_cuda.step_loop(pull, adds, registers)
         signature = types.void(*stepping, types.int64[::1], row)
         found.append(GpuKernel(f"step, {name}", loop, signature, registers, True))
-    room, statuses = typeof(room_for(1, ("force",))), types.int8[::1]
-    asking = (types.int64, *6 * (row,), types.float64, types.float64[:, ::1], room, statuses, row)
-    found.append(GpuKernel("solver: force", ask_cuda.loop(), types.void(*asking), None, False))
+    asking = (types.int64, *6 * (row,), types.float64, whole, typeof(room_for(1, None)), types.int8[::1])
+    for name, wanted in (("force", FORCE_ALONE), ("all fields", ALL)):
+        found.append(GpuKernel(f"solver: {name}", ask_cuda.loop(wanted), types.void(*asking), None, False))
     return found
 
 

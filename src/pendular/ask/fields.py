@@ -24,7 +24,7 @@ _LENGTHS = {
     "surface_energy": 1, "grand_potential": 1, "stiffness": 1, "contact_radius": 2, "half_filling_angle": 2,
     "wetted_area": 2, "capillary_tensor": 2, "_meridian": 3,
 }  # fmt: skip
-_KINDS = ("exists", "stable", "sideways_stable", "neck_inside")
+KINDS = ("exists", "stable", "sideways_stable", "neck_inside")
 _ALWAYS = ("exists", "stable", "unstable_directions", "sideways_stable")
 TO_GO_ON = ("suction", "_meridian")  # what is kept of a bridge, so that others may be looked for near it
 _CHUNK = 16384  # rows that one thread takes at a time
@@ -33,7 +33,7 @@ _NAMES = tuple(name for name, _, _ in FIELDS)
     _SEPARATION, _SUCTION, _VOLUME, _FORCE, _NECK, _AREA, _ENERGY, _POTENTIAL, _STIFFNESS, _RADII, _FILLINGS, _WETTED,
     _TENSOR, _MERIDIAN,
 ) = range(len(_LENGTHS))  # fmt: skip
-_EXISTS, _STABLE, _SIDEWAYS, _NECK_INSIDE = range(len(_KINDS))
+_EXISTS, _STABLE, _SIDEWAYS, _NECK_INSIDE = range(len(KINDS))
 
 
 class Room(NamedTuple):
@@ -65,13 +65,26 @@ def checked_fields(fields: Any) -> tuple[str, ...] | None:
     return names
 
 
+def numbers_of(fields: tuple[str, ...] | None) -> dict[str, tuple[int, int]]:
+    """Fields that are numbers, among those that are asked: the first of their rows in a room, and how many they are."""
+    rows, count = {}, 0
+    for name, length in _LENGTHS.items():
+        if fields is None or name in fields:
+            rows[name], count = (count, length), count + length
+    return rows
+
+
+def places_of(fields: tuple[str, ...] | None) -> Integers:
+    """The first row of each field, for a room."""
+    rows = numbers_of(fields)
+    return np.array([rows[name][0] if name in rows else -1 for name in _LENGTHS])
+
+
 def room_for(rows: int, fields: tuple[str, ...] | None) -> Room:
     """Room for the fields of so many bridges."""
-    places, count = np.full(len(_LENGTHS), -1), 0
-    for i, (name, length) in enumerate(_LENGTHS.items()):
-        if fields is None or name in fields:
-            places[i], count = count, count + length
-    return Room(places, np.empty((count, rows)), np.empty((len(_KINDS), rows), bool), np.empty(rows, np.int64))
+    count = sum(length for _, length in numbers_of(fields).values())
+    kinds = np.empty((len(KINDS), rows), bool)
+    return Room(places_of(fields), np.empty((count, rows)), kinds, np.empty(rows, np.int64))
 
 
 @kernel
@@ -211,7 +224,7 @@ def bridge_of(
             values[name] = np.moveaxis(room.numbers[first : first + length].reshape(length, *shape), 0, -1)
         else:
             values[name] = room.numbers[first].reshape(shape)
-    values |= {name: kind.reshape(shape) for name, kind in zip(_KINDS, room.kinds, strict=True)}
+    values |= {name: kind.reshape(shape) for name, kind in zip(KINDS, room.kinds, strict=True)}
     if fields is not None and "neck_inside" not in fields:
         values["neck_inside"] = np.broadcast_to(np.bool_(False), shape)
     radii = [np.broadcast_to(radius, shape) for radius in solid_radius]
