@@ -6,8 +6,19 @@ import numpy as np
 import pytest
 
 from pendular.exact import batch
-from pendular.exact.arc import LEAST_ROOM, Arc, force_on, force_rates_on, meridian_of, room_of, sums_of, system_on
+from pendular.exact.arc import (
+    LEAST_ROOM,
+    Arc,
+    force_on,
+    force_rates_on,
+    half_from_neck,
+    meridian_of,
+    room_of,
+    sums_of,
+    system_on,
+)
 from pendular.exact.equations import SUCTION, VOLUME, Held, force_of, system_at
+from pendular.exact.meridian import measure_arc, tensor_of
 from pendular.exact.solids import solid_of
 from pendular.exact.state import State
 
@@ -53,6 +64,22 @@ def test_equations_of_an_arc_are_those_of_its_meridian():
         scale = np.maximum(scale, np.abs(known))
         np.testing.assert_allclose(found / scale, known / scale, rtol=0.0, atol=2e-12)
         assert system.first.radius == pytest.approx(other.first.radius, rel=1e-12)
+
+
+def test_half_an_arc_from_its_neck_is_half_of_the_whole():
+    """Necks down to a ten thousandth of the width among them."""
+    print("seed", SEED)
+    rng = np.random.default_rng(SEED)
+    for _ in range(300):
+        tau, eta = 10.0 ** rng.uniform(-2.0, 1.0), rng.uniform(-1.0, 2.5)
+        arc = Arc(tau * 10.0 ** rng.uniform(-4.0, 0.5), 0.0, tau, eta)
+        half, z = half_from_neck(arc), meridian_of(arc)
+        length, liquid = measure_arc(z, True, True)
+        across, axial = tensor_of(z)
+        size = 2.0 * tau
+        np.testing.assert_allclose(size * half.length, length.value, rtol=1e-12, atol=1e-13 * size)
+        np.testing.assert_allclose(size * tau**2 * half.volume, liquid.value, rtol=1e-12, atol=1e-13 * size**3)
+        np.testing.assert_allclose(4.0 * np.pi * tau**2 * half.area, 2.0 * across + axial, rtol=1e-12)
 
 
 def test_rates_of_an_arc_are_those_of_differences():

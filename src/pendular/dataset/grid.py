@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..exact.algebra import Four
-from ..exact.arc import Arc, half_length_of, is_fit, values_of
+from ..exact.arc import WIDEST_ETA, Arc, half_from_neck, half_length_of
 from ..exact.meridian import measure_arc, place_after, tensor_of, turn_of
 from ..ground.compile import kernel
 from ..laws.contact_circle import Contact, cap_volume, contact_at, wetted_arc_of, wetted_area
@@ -86,10 +86,9 @@ def _side(curvature: float, force: float, contact: Contact) -> Side:
     width = 2.0 * contact.radius * contact.sin_slope / (ratio + 1.0 + curvature * contact.radius * contact.cos_slope)
     arc = Arc(neck, 0.0, width, curvature * width)
     square = math.pi * width * width
-    if is_fit(arc):
-        values = values_of(arc)
-        length, liquid = 0.5 * width * values.length, 0.5 * square * width * values.volume
-        area = square * (values.across + values.axial)
+    if abs(arc.eta) < WIDEST_ETA:
+        half = half_from_neck(arc)
+        length, liquid, area = width * half.length, square * width * half.volume, 2.0 * square * half.area
     else:
         length, liquid, area = _measured(arc)
     return Side(length - contact.sagitta, liquid - cap_volume(contact), area, wetted_area(contact))

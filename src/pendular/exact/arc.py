@@ -18,7 +18,7 @@ from ..ground.lanes import choose
 from .algebra import Four
 from .equations import Held, System, system_of
 from .meridian import End, Row
-from .quadrature import point_at
+from .quadrature import Cut, node_at, point_at
 
 Nodes = NDArray[np.float64]
 
@@ -33,7 +33,8 @@ X96, W96 = map(constants, np.polynomial.legendre.leggauss(96))
 # error of rounding, e = ρ^-2n with ρ = t + √(1 + t²); or one that a Newton step far from its end does not see.
 _FINE_8, _FINE_16, _FINE_24, _FINE_32, _FINE_48, _FINE_64, LEAST_ROOM = 6.1, 1.61, 1.0, 0.665, 0.435, 0.325, 0.213
 _COARSE_8, _COARSE_16, _COARSE_24 = 0.85, 0.42, 0.26
-_WIDEST_ETA = 2.6
+WIDEST_ETA = 2.6
+_WIDEST_CUT = 1.5  # half width of a cut in t, where a neck is thin
 ROOM_FOR_24, ROOM_FOR_32 = 0.85, 0.6  # from which on so many leave one in the values, if not in the last rates
 HALF_A_TURN = 1.99  # η below which an arc makes less than half a turn
 _SMALL = 1e-4  # ω below which tan(ω/2)/(ω/2) is a series
@@ -48,13 +49,12 @@ class Arc(NamedTuple):
     eta: float  # Hτ
 
 
-class Values(NamedTuple):
-    """Length X, volume V/π and orientation of an arc in units of τ."""
+class Half(NamedTuple):
+    """Length X, volume V/π and area A/2π of half an arc in units of τ."""
 
     length: float
     volume: float
-    across: float  # ∫Y cos²φ ds
-    axial: float  # ∫Y sin²φ ds
+    area: float
 
 
 NOWHERE = Arc(0.0, 0.0, 0.0, 0.0)
@@ -88,7 +88,7 @@ def room_of(arc: Arc) -> float:
 @kernel
 def is_fit(arc: Arc) -> bool:
     """Whether the sums over an arc are exact to rounding."""
-    return arc.radius > 0.0 and abs(arc.eta) < _WIDEST_ETA and room_of(arc) > LEAST_ROOM
+    return arc.radius > 0.0 and abs(arc.eta) < WIDEST_ETA and room_of(arc) > LEAST_ROOM
 
 
 @kernel
@@ -177,27 +177,61 @@ def _sum_all(real: float, imag: float, h: float, x: Nodes, weight: Nodes) -> Sum
 
 
 @summing_kernel
-def _sum_values(real: float, imag: float, h: float, x: Nodes, weight: Nodes) -> Values:
-    """The values alone."""
-    length = volume = across = axial = 0.0
+def _sum_half(neck: float, h: float, x: Nodes, weight: Nodes) -> Half:
+    """Sums over the half of the nodes on one side of the neck, a root and a division for each."""
+    length = volume = area = 0.0
+    run = 1.0 + h * neck
+    bent = h * run
+    for j in range(len(x) // 2):
+        square = x[j] * x[j]
+        turned = 1.0 + h * h * square
+        size = neck * neck + run * run * square
+        root = math.sqrt(turned * size)
+        inverse = 1.0 / (turned * root)
+        over = root * inverse  # 1/(1 + w²)
+        share = weight[j] * (neck - bent * square) * inverse
+        length += share
+        volume += share * size * over
+        area += weight[j] * root * over * over
+    return Half(length, volume, area)
+
+
+@summing_kernel
+def _sum_cut(neck: float, h: float, cut: Cut, x: Nodes, weight: Nodes) -> Half:
+    """The same over a cut of a half whose neck is thin."""
+    length = volume = area = 0.0
     for j in range(len(x)):
-        zr, zi, ds, _v, _w, _p = point_at(real, imag, h, x[j], weight[j])
+        zr, zi, ds, _v, _w, _p = node_at(neck, 0.0, h, cut, x[j], weight[j])
         square = zr * zr + zi * zi
-        share = ds / math.sqrt(square)
-        cosine = share * zr
-        length += cosine
-        volume += cosine * square
-        across += cosine * zr
-        axial += share * zi * zi
-    return Values(length, volume, across, axial)
+        root = math.sqrt(square)
+        share = ds * zr / root
+        length += share
+        volume += share * square
+        area += ds * root
+    return Half(length, volume, area)
 
 
 @kernel
-def values_of(arc: Arc) -> Values:
-    """Length, volume and orientation of an arc that is fit for it, in units of τ."""
-    real, h = arc.radius / arc.half_width, 0.5 * arc.eta
-    x, weight = _nodes_for(room_of(arc), True)
-    return _sum_values(real, real * arc.slope, h, x, weight)
+def half_from_neck(arc: Arc) -> Half:
+    """Length, volume and area of half an arc whose middle is its neck, in units of τ; |η| is below the widest.
+
+    Where the neck is thin, a variable t with v = b sinh t keeps away from the singular points ±ib.
+    """
+    neck, h, room = arc.radius / arc.half_width, 0.5 * arc.eta, room_of(arc)
+    if room > LEAST_ROOM:
+        x, weight = _nodes_for(room, True)
+        return _sum_half(neck, h, x, weight)
+    spread = neck / abs(1.0 + h * neck)
+    end = math.log((1.0 + math.sqrt(1.0 + spread * spread)) / spread)
+    cuts = 1 + int(0.5 * end / _WIDEST_CUT)
+    half = 0.5 * end / cuts
+    cut, growth = Cut(0.0, spread, math.exp(half), half), math.exp(2.0 * half)
+    length = volume = area = 0.0
+    for _ in range(cuts):
+        part = _sum_cut(neck, h, cut, X24, W24)
+        length, volume, area = length + part.length, volume + part.volume, area + part.area
+        cut = Cut(cut.pole, cut.spread, cut.middle * growth, cut.half)
+    return Half(length, volume, area)
 
 
 @kernel
