@@ -12,7 +12,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ..exact.batch import ALL, FAILED, FORCE_ALONE, OPEN
+from ..exact.batch import ALL, FAILED, FORCE_ALONE, OPEN, ROOM_ABREAST
 from ..exact.equations import SUCTION, VOLUME
 from ..exact.state import State
 from ..ground.check import one_of, result_array, scalar
@@ -44,7 +44,7 @@ from .result import Bridge
 
 __all__ = ["bridge_fields", "bridge_force"]
 
-_FIELDS, _ABREAST = len(State._fields), batch.ROOM_ABREAST
+_FIELDS = len(State._fields)
 _UNITS = {
     "separation": "m", "control": "", "radius1": "m", "radius2": "m", "contact_angle1": "rad", "contact_angle2": "rad",
 }  # fmt: skip
@@ -67,7 +67,7 @@ def loop(wanted: int) -> Any:
     ) -> None:  # fmt: skip
         i = cuda.grid(1)
         row = cuda.local.array(_FIELDS, types.float64)
-        abreast = cuda.local.array(_ABREAST, types.float64)
+        abreast = cuda.local.array(ROOM_ABREAST, types.float64)
         if i < statuses.size:
             answer(
                 wanted, control, separation, held, radius1, radius2, angle1, angle2, tension, near, room, statuses,
