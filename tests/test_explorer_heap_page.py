@@ -113,6 +113,8 @@ def test_a_slider_moves_bridges_and_numbers(desk):
     desk.slide("Suction", "Home")
     lowest = read("suction", desk.text("Suction").input_value(), "Pa", "20kPa")
     expect_state(desk, wet(lowest))
+    meeting = f"bridges meet on {100 * wet(lowest).meetings.grains:.4g}\u00a0%"
+    playwright.expect(desk.page.locator("#heap-tiles .saturation .note")).to_have_text(meeting)
 
 
 def test_history_is_told_and_coloured(desk):

@@ -21,8 +21,10 @@ export function heapTilesOf({ view, values, bridges, answers }) {
   const kept = bridges.filter(({ isKept }) => isKept).length;
   const onDrying = kept ? `${kept} on drying alone` : "as on wetting";
   const other = view.path === "drying" ? onDrying : `${membersOf(answers, "drying").length} on drying`;
+  const meeting = `bridges meet on ${percent(values.meeting_grains)}`; // of the grains: then bridges overlap
+  const liquid = `${show(values.liquid_volume, "m^3", 4)} of liquid`;
   return [
-    tile("saturation", "Saturation", percent(values.saturation), `${show(values.liquid_volume, "m^3", 4)} of liquid`),
+    tile("saturation", "Saturation", percent(values.saturation), values.meeting_grains ? meeting : liquid),
     tile("bridges", "Bridges", String(values.bridges), other),
     tile(
       "force",
