@@ -249,6 +249,12 @@ SUBJECTS: dict[str, tuple[Bound, ...]] = {
             "test_packing.py::test_a_heap_is_the_sum_of_its_pairs",
         ),
         Bound(
+            "the heap of the explorer page: water, stress and meetings",
+            "1e-12",
+            "Python, on random heaps",
+            "test_explorer_heap.py::test_water_and_stress_are_those_of_python",
+        ),
+        Bound(
             "stress is the rate of the potential with the strain",
             "3e-6",
             "differences of strained heaps",
