@@ -41,6 +41,12 @@ PICTURE = f"""() => {{ {PIXELS}
 }}"""
 
 
+RESTED = """() => {
+  const canvas = document.getElementById("heap-canvas");
+  return canvas.width > 1.5 * canvas.clientWidth;
+}"""
+
+
 class Heap(page.Seen):
     """The view of the heap."""
 
@@ -60,7 +66,8 @@ class Heap(page.Seen):
 
     def picture(self) -> int:
         """A sum over what is drawn, once the hand rests."""
-        self.page.wait_for_timeout(500)
+        self.page.wait_for_timeout(300)
+        self.page.wait_for_function(RESTED)
         return int(self.page.evaluate(PICTURE))
 
 
@@ -236,7 +243,8 @@ def test_menisci_stand_where_python_has_them(blank):
     blank.page.get_by_role("button", name="Use them").click()
     blank.expect_tile("bridges", "1")
     blank.expect_tile("force", show(own.force * 2.1e-3 / 3.0 / (4.1e-3 * 2e-3 * 2e-3), "Pa", 4).replace(" ", "\u00a0"))
-    blank.page.wait_for_timeout(500)
+    blank.page.wait_for_timeout(300)
+    blank.page.wait_for_function(RESTED)
     high, metre = blank.page.evaluate(
         f"""() => {{ {PIXELS}
         const isSolid = (column, row) => Number(data[4 * (row * width + column) + 3] > 0);

@@ -4,7 +4,7 @@ import { followCurves, PATHS, suctionsBetween, wholeCurvesOf } from "./curves.mj
 import { linesOf, packingNames } from "./grains.mjs";
 import { heapAnswerTo, rangeOf, usualSuction } from "./heap_answer.mjs";
 import { FARTHER, letPick, letTurn, NEARER } from "./heap_hands.mjs";
-import { lengthBar, paintHeap, writePicture } from "./heap_picture.mjs";
+import { lengthBar, paintHeap, paintSlowly, writePicture } from "./heap_picture.mjs";
 import { HEAP_RECORDS } from "./heap_records.mjs";
 import { FIRST_HEAP, heapAt, heapHashOf, OWN, plotted, seenAfter } from "./heap_view.mjs";
 import {
@@ -55,6 +55,7 @@ let curves; // of the setting that was followed last
 let followed;
 let inner; // sides of the chart
 let stopCurves = () => {};
+let stopFine = () => {};
 let ahead; // the view to be shown in the next frame, and the field that asked for it
 let soon;
 let waiting;
@@ -212,7 +213,7 @@ function suctions() {
 
 function drawSized() {
   drawChart();
-  drawHeap(1);
+  drawHeap();
 }
 
 function drawChart() {
@@ -223,12 +224,22 @@ function drawChart() {
   at("chart").setAttribute("aria-label", chart.words);
 }
 
-/** Draw the heap with so many pixels for each of the page. */
-function drawHeap(fineness) {
+/** Size of the picture with so many pixels for each of the page. */
+function pixelsBy(fineness) {
   const [columns, rows] = sizes.canvas.map((size) => Math.max(1, Math.round(fineness * size)));
-  paintHeap(at("canvas"), answer, exact, { columns, rows, isFine: fineness > 1 });
+  return { columns, rows, isFine: fineness > 1 };
+}
+
+function drawHeap() {
+  stopFine();
+  paintHeap(at("canvas"), answer, exact, pixelsBy(1));
   at("canvas").setAttribute("aria-label", heapInWords(answer));
   fill(at("bar"), lengthBar(answer, ...sizes.canvas));
+}
+
+function drawFine() {
+  stopFine();
+  stopFine = paintSlowly(at("canvas"), answer, exact, pixelsBy(FINE));
 }
 
 /** Sizes are kept: to ask for them in each frame would lay out the page twice. */
@@ -249,7 +260,7 @@ function later() {
     at("spoken").textContent = heapSpoken(answer);
     history.replaceState(null, "", `#${heapHashOf(answer.view)}`);
     document.getElementById("to-heap").href = `#${heapHashOf(answer.view)}`;
-    drawHeap(FINE);
+    drawFine();
   }, PAUSE);
 }
 
@@ -295,7 +306,7 @@ const wholeCurves = () => curves ?? wholeCurvesOf(answer.setting, suctions(), ex
 
 function savePicture() {
   writePicture(answer, exact, (content) => save("heap.png", "image/png", content));
-  drawHeap(FINE); // the pictures share one room
+  drawFine(); // the pictures share one room
 }
 
 // -- In and out of sight ----------------------------------------------------------------------------------------------
@@ -318,6 +329,7 @@ function open(hash) {
 function close() {
   isOpen = false;
   clearTimeout(waiting);
+  stopFine();
 }
 
 /** The view, laid out. */

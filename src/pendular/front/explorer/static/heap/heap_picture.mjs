@@ -7,15 +7,39 @@ import { paperColours } from "../main.mjs";
 import { show } from "../units.mjs";
 
 const PNG_SIZE = [1400, 1200];
+const PAINTING = 8; // time in one go, [ms], so that a hand that begins again is not felt
 const EDGE = 0.65; // of the colour of a meniscus, the rest is that of the liquid
 const drawScene = makeScene();
 
 /** Draw the heap with so many pixels. */
 export function paintHeap(canvas, answer, solver, size, palette = pagePalette()) {
-  const { setting, answers, bridges, view } = answer;
+  const steps = stepsOf(answer, solver, size, palette);
+  let step = steps.next();
+  while (!step.done) step = steps.next();
+  putPixels(canvas, size, step.value);
+}
+
+/** Draw it by and by; returns a function that stops it. */
+export function paintSlowly(canvas, answer, solver, size) {
+  const steps = stepsOf(answer, solver, size, pagePalette());
+  let timer;
+  const goOn = () => {
+    const until = performance.now() + PAINTING;
+    let step = steps.next();
+    while (!step.done && performance.now() < until) step = steps.next();
+    if (step.done) putPixels(canvas, size, step.value);
+    else timer = setTimeout(goOn);
+  };
+  timer = setTimeout(goOn);
+  return () => clearTimeout(timer);
+}
+
+function stepsOf({ setting, answers, bridges, view }, solver, size, palette) {
   const isClear = view.grains === "clear";
-  const { columns, rows } = size;
-  const pixels = drawScene({ setting, answers, bridges, view: readSeen(view.seen), palette, isClear, ...size }, solver);
+  return drawScene({ setting, answers, bridges, view: readSeen(view.seen), palette, isClear, ...size }, solver);
+}
+
+function putPixels(canvas, { columns, rows }, pixels) {
   if (canvas.width !== columns || canvas.height !== rows) Object.assign(canvas, { width: columns, height: rows });
   canvas.getContext("2d").putImageData(new ImageData(pixels, columns, rows), 0, 0);
 }

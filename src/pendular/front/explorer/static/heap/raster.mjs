@@ -52,7 +52,7 @@ export function drawBall(canvas, x, y, z, radius, look) {
       const rest = chord - u * u;
       if (rest <= 0) continue;
       if (look.isClear) {
-        if (rest < CLEAR_RIM * square && z > depth[place]) words[place] = clear;
+        if (rest < CLEAR_RIM * square) words[place] = clear;
         continue;
       }
       const bulge = Math.sqrt(rest);

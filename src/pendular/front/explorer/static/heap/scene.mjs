@@ -9,35 +9,37 @@ const FINE_DETAIL = { points: 13, sides: 24 };
 const FEWEST_SIDES = 6;
 const SIDES_A_PIXEL = 1.3; // of the radius
 
-/** Keeps pictures of one size: grains are drawn again only where they look different. */
+/** Keeps a coarse and a fine picture: grains are drawn again only where they look different. */
 export function makeScene() {
-  let grains;
-  let whole;
-  let drawn; // what the grains looked like
+  const rooms = { coarse: undefined, fine: undefined };
 
-  /** Pixels of a heap with bridges, each a row of the answers and whether history alone keeps it. */
-  return function draw({ setting, answers, bridges, view, palette, isClear, columns, rows, isFine }, solver) {
-    if (whole?.columns !== columns || whole.rows !== rows) {
-      grains = canvasOf(columns, rows);
-      whole = canvasOf(columns, rows);
-      drawn = undefined;
-    }
+  /**
+   * Pixels of a heap with bridges, each a row of the answers and whether history alone keeps it. They are drawn in small
+   * steps, after each of which another picture may be begun instead.
+   */
+  return function* draw({ setting, answers, bridges, view, palette, isClear, columns, rows, isFine }, solver) {
+    const fineness = isFine ? "fine" : "coarse";
+    if (rooms[fineness]?.whole.columns !== columns || rooms[fineness].whole.rows !== rows)
+      rooms[fineness] = { grains: canvasOf(columns, rows), whole: canvasOf(columns, rows), drawn: undefined };
+    const room = rooms[fineness];
     const { heap } = setting;
     const seen = seenFrom(heap, view, columns, rows);
     const looks = looksOf(palette, seen.scale * placesOf(heap).reach, isClear);
     const key = [view.turn, view.tilt, view.zoom, isClear, ...palette.grain, ...palette.ground].join(" ");
-    if (drawn?.heap !== heap || drawn.key !== key) {
-      clear(grains);
-      drawGrains(grains, heap, seen, looks.grain);
-      drawn = { heap, key, tiles: tilesOf(grains) };
+    if (room.drawn?.heap !== heap || room.drawn.key !== key) {
+      room.drawn = undefined;
+      clear(room.grains);
+      yield* drawGrains(room.grains, heap, seen, looks.grain);
+      room.drawn = { heap, key, tiles: tilesOf(room.grains) };
     }
-    copyOf(whole, grains);
+    copyOf(room.whole, room.grains);
     const detail = isFine ? FINE_DETAIL : isClear ? CLEAR_DETAIL : COARSE_DETAIL;
     for (const { row, isKept } of bridges) {
       const look = isKept ? looks.kept : looks.liquid;
-      drawBridge(whole, drawn.tiles, setting, answers, row, seen, detail, look, solver);
+      drawBridge(room.whole, room.drawn.tiles, setting, answers, row, seen, detail, look, solver);
+      yield;
     }
-    return whole.pixels;
+    return room.whole.pixels;
   };
 }
 
@@ -66,10 +68,13 @@ function looksOf(palette, reach, isClear) {
 }
 
 /** The nearest first: most of what lies behind is then not drawn at all. */
-function drawGrains(canvas, { count, radii }, { scale, places }, look) {
+function* drawGrains(canvas, { count, radii }, { scale, places }, look) {
   const order = Array.from({ length: count }, (_, i) => i).sort((i, j) => places[3 * j + 2] - places[3 * i + 2]);
   if (look.isClear) order.reverse();
-  for (const i of order) drawBall(canvas, places[3 * i], places[3 * i + 1], places[3 * i + 2], scale * radii[i], look);
+  for (const i of order) {
+    drawBall(canvas, places[3 * i], places[3 * i + 1], places[3 * i + 2], scale * radii[i], look);
+    yield;
+  }
 }
 
 /** A bridge that leaves the cell is drawn as its two halves, each on its grain. */
