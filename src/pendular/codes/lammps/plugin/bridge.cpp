@@ -14,13 +14,6 @@ void Bridges::clear()
     unused.clear();
 }
 
-void Bridges::add(const Ends &pair, const Origin &of)
-{
-    ends.push_back(pair);
-    record.push_back(-1);
-    origin.push_back(of);
-}
-
 Bridge &Bridges::record_of(int number)
 {
     int &own = record[number];

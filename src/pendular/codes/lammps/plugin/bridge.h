@@ -13,6 +13,14 @@ namespace pendular_lammps {
 
 class Law;
 
+/* Have memory brought near before its turn: grains that touch lie in far places of it. */
+inline void fetch(const void *place)
+{
+#ifdef __GNUC__
+    __builtin_prefetch(place);
+#endif
+}
+
 /* A bridge of solids apart, and what was learnt when it was last looked at. */
 struct Bridge : Cell {
     double held = 0.0;                     /* suction or volume */
@@ -37,7 +45,12 @@ struct Bridges {
     int count() const { return static_cast<int>(ends.size()); }
 
     void clear();
-    void add(const Ends &, const Origin &);
+    void add(const Ends &pair, const Origin &of)
+    {
+        ends.push_back(pair);
+        origin.push_back(of);
+        record.push_back(-1);
+    }
 
     /* Made if there was none. */
     Bridge &record_of(int number);

@@ -15,6 +15,7 @@ using namespace FixConst;
 namespace pendular_lammps {
 namespace {
     constexpr int PARTNER = 2; /* numbers of a partner in a buffer */
+    constexpr int AHEAD = 32;  /* bridges */
 }
 
 FixBridges::FixBridges(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
@@ -103,8 +104,10 @@ void FixBridges::fill()
         count[i] = 0;
     }
     pool.resize(size);
-    for (int k = 0; k < pair->bridges.count(); ++k) {
+    const int last = pair->bridges.count() - 1;
+    for (int k = 0; k <= last; ++k) {
         const Ends &ends = pair->bridges.ends[k];
+        fetch(&pool[start[pair->bridges.ends[std::min(k + AHEAD, last)].j]]);
         const Origin &of = pair->bridges.origin[k];
         const double held = !of.law->is_drained() ? of.held : volumes_wanted ? -pair->volume_of(k) : 0.0;
         add(ends.i, {of.tag2, k, held});

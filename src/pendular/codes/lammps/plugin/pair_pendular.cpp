@@ -23,6 +23,7 @@ namespace pendular_lammps {
 namespace {
     const char *const WHO = "Pair pendular";
     constexpr double ROUNDING = 1.0 + 1e-12;
+    constexpr int TOGETHER = 32; /* atoms */
 }    // namespace
 
 PairPendular::PairPendular(LAMMPS *lmp) : Pair(lmp)
@@ -260,8 +261,7 @@ void PairPendular::take_list()
     watched.clear();
     if (film.is_there())
         film.clear(atom->nlocal + atom->nghost);
-    for (int i = 0; i < atom->nlocal; ++i)
-        find_bridges(i);
+    find_bridges();
     const NeighList &near = lender ? *lender->list : *list;
     for (int row = 0; row < near.inum; ++row)
         find_watched(near, near.ilist[row]);
@@ -270,29 +270,40 @@ void PairPendular::take_list()
         return_lost();
 }
 
-/* The rank that has the grain of the lower id has the bridge. */
-void PairPendular::find_bridges(int i)
+/* The rank that has the grain of the lower id has the bridge. Some atoms at a time, so that what is known of their partners
+   is on its way from memory while others are looked for. */
+void PairPendular::find_bridges()
 {
-    const tagint own = atom->tag[i];
-    for (const Partner *partner = history->begin(i); partner != history->end(i); ++partner) {
-        if (partner->tag < own || partner->tag > atom->map_tag_max)
-            continue;
-        int j = atom->map(partner->tag);
-        if (j < 0)
-            continue;
-        double square = square_of_distance(i, j);
-        if (square > cutforce * cutforce) { /* nearer than half of the box there is no other image */
-            j = domain->closest_image(i, j);
-            square = square_of_distance(i, j);
+    const double *x = atom->x[0];
+    std::vector<Kept> kept;
+    for (int first = 0; first < atom->nlocal; first += TOGETHER) {
+        kept.clear();
+        for (int i = first; i < std::min(first + TOGETHER, atom->nlocal); ++i) {
+            const tagint own = atom->tag[i];
+            for (const Partner *partner = history->begin(i); partner != history->end(i); ++partner) {
+                if (partner->tag < own || partner->tag > atom->map_tag_max)
+                    continue;
+                const int j = atom->map(partner->tag);
+                if (j < 0)
+                    continue;
+                fetch(x + 3L * j);
+                fetch(atom->radius + j);
+                fetch(atom->type + j);
+                if (partner->former >= 0) {
+                    fetch(&former.ends[partner->former]);
+                    fetch(&former.origin[partner->former]);
+                }
+                kept.push_back({i, j, partner});
+            }
         }
-        const double sum = atom->radius[i] + atom->radius[j];
-        take_over(i, j, *law_of[atom->type[i]][atom->type[j]], *partner, sum, square > sum * sum);
+        for (const Kept &bridge : kept)
+            take_over(bridge);
     }
 }
 
 double PairPendular::square_of_distance(int i, int j) const
 {
-    const double *one = atom->x[i], *other = atom->x[j];
+    const double *one = atom->x[0] + 3L * i, *other = atom->x[0] + 3L * j;
     const double dx = other[0] - one[0], dy = other[1] - one[1], dz = other[2] - one[2];
     return dx * dx + dy * dy + dz * dz;
 }
@@ -316,16 +327,27 @@ void PairPendular::find_watched(const NeighList &near, int i)
 
 /* A bridge of the list before, which this rank may have known. Those of grains apart stand behind all others, where the
    processor foresees which they are. */
-void PairPendular::take_over(int i, int j, Law &law, const Partner &partner, double sum, bool is_apart)
+void PairPendular::take_over(const Kept &bridge)
 {
+    const Partner &partner = *bridge.partner;
+    const int i = bridge.i, before = partner.former;
+    int j = bridge.j;
+    double square = square_of_distance(i, j);
+    if (square > cutforce * cutforce) { /* nearer than half of the box there is no other image */
+        j = domain->closest_image(i, j);
+        square = square_of_distance(i, j);
+    }
+    Law &law = *law_of[atom->type[i]][atom->type[j]];
+    const double sum = atom->radius[i] + atom->radius[j];
     const double held = law.is_drained() ? law.control() : std::fabs(partner.held);
     if (film.is_there())
         for (int end : {i, j}) {
             film.returned[end] += std::fmax(partner.held, 0.0);
             film.standing[end] += 1.0;
         }
+    const bool is_apart = square > sum * sum;
     Bridges &set = is_apart ? apart : bridges;
-    const int number = set.count(), before = partner.former;
+    const int number = set.count();
     set.add({i, j, NAN, NAN}, {atom->tag[i], partner.tag, &law, held});
     if (before < 0)
         return;

@@ -20,6 +20,12 @@ struct Watched {
     double near;
 };
 
+/* A bridge of the list before, as the first of its two atoms knows it. */
+struct Kept {
+    int i, j;
+    const Partner *partner;
+};
+
 /* Each pair of grains is in the list of one rank, which alone decides whether they have a bridge. */
 class PairPendular : public LAMMPS_NS::Pair {
 public:
@@ -75,12 +81,11 @@ private:
     void check_box() const;
     bool forms_apart() const;
     LAMMPS_NS::Pair *list_lender() const;
-    void find_bridges(int i);
+    void find_bridges();
     void find_watched(const LAMMPS_NS::NeighList &near, int i);
-    void take_over(int i, int j, Law &, const Partner &, double sum, bool is_apart);
+    void take_over(const Kept &);
     void refresh();
     template <bool TALLIES, bool KEEPS_GHOSTS> void add_forces();
-    void look_apart(int first, int size, const double *distance, double *part);
     double pull_at(int number, double distance);
     double renewed_pull(int number, double distance);
     void make(int number, Bridge &, const Solids &);

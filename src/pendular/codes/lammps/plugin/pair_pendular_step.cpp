@@ -14,14 +14,7 @@ namespace pendular_lammps {
 namespace {
     constexpr double ROUNDING = 1.0 + 1e-12;
     constexpr int HOME = 10; /* numbers of a ghost: force, energy, virial */
-    constexpr int BLOCK = 64, AHEAD = 96; /* bridges that are looked at together; that are fetched before their turn */
-
-    void fetch(const double *row)
-    {
-#ifdef __GNUC__
-        __builtin_prefetch(row);
-#endif
-    }
+    constexpr int AHEAD = 32; /* bridges whose second grain is fetched from memory before their turn */
 }    // namespace
 
 void PairPendular::compute(int eflag, int vflag)
@@ -65,64 +58,41 @@ void PairPendular::refresh()
 
 /* -- Forces --------------------------------------------------------------------------------------------------------- */
 
-/* Block by block: first all distances, so that no bridge waits for the one before it; then, few at most, the bridges of
-   solids apart; at last the forces. */
 template <bool TALLIES, bool KEEPS_GHOSTS> void PairPendular::add_forces()
 {
     const int count = bridges.count(), local = atom->nlocal;
     if (count == 0)
         return;
+    const Ends *ends = bridges.ends.data();
     const double *x = atom->x[0]; /* rows lie side by side, and a pointer to each takes time */
     double *f = atom->f[0];
-    double dx[BLOCK], dy[BLOCK], dz[BLOCK], distance[BLOCK], part[BLOCK];
-    for (int first = 0; first < count; first += BLOCK) {
-        const int size = std::min(BLOCK, count - first);
-        const Ends *block = &bridges.ends[first];
-        for (int k = 0; k < size; ++k) {
-            const double *from = x + 3L * block[k].i, *to = x + 3L * block[k].j;
-            const long ahead = 3L * bridges.ends[std::min(first + k + AHEAD, count - 1)].j;
-            fetch(x + ahead);
-            fetch(f + ahead);
-            dx[k] = to[0] - from[0];
-            dy[k] = to[1] - from[1];
-            dz[k] = to[2] - from[2];
+    for (int k = 0; k < count; ++k) {
+        const Ends &pair = ends[k];
+        const long ahead = 3L * ends[std::min(k + AHEAD, count - 1)].j;
+        fetch(x + ahead);
+        fetch(f + ahead);
+        const double *from = x + 3L * pair.i, *to = x + 3L * pair.j;
+        const double dx = to[0] - from[0], dy = to[1] - from[1], dz = to[2] - from[2];
+        const double distance = std::sqrt(dx * dx + dy * dy + dz * dz);
+        double pull = pair.touching;
+        if (!(distance <= pair.sum)) {
+            pull = pull_at(k, distance);
+            if (pull == 0.0) {
+                broken.push_back(k);
+                continue;
+            }
         }
-        int overlapping = 0;
-        for (int k = 0; k < size; ++k) {
-            distance[k] = std::sqrt(dx[k] * dx[k] + dy[k] * dy[k] + dz[k] * dz[k]);
-            part[k] = block[k].touching / distance[k];
-            overlapping += distance[k] <= block[k].sum;
-        }
-        if (overlapping < size)
-            look_apart(first, size, distance, part);
-        for (int k = 0; k < size; ++k) {
-            double *one = f + 3L * block[k].i;
-            double *other = KEEPS_GHOSTS && block[k].j >= local ? &on_ghosts[HOME * (block[k].j - local)]
-                                                                : f + 3L * block[k].j;
-            const double x_part = dx[k] * part[k], y_part = dy[k] * part[k], z_part = dz[k] * part[k];
-            one[0] += x_part;
-            one[1] += y_part;
-            one[2] += z_part;
-            other[0] -= x_part;
-            other[1] -= y_part;
-            other[2] -= z_part;
-        }
-        for (int k = 0; TALLIES && k < size; ++k)
-            if (part[k] != 0.0)
-                tally(first + k, part[k], dx[k], dy[k], dz[k]);
-    }
-}
-
-/* The bridges of a block whose solids do not overlap: attraction over distance, 0 where they break. */
-void PairPendular::look_apart(int first, int size, const double *distance, double *part)
-{
-    for (int k = 0; k < size; ++k) {
-        if (distance[k] <= bridges.ends[first + k].sum)
-            continue;
-        const double pull = pull_at(first + k, distance[k]);
-        part[k] = pull / distance[k];
-        if (pull == 0.0)
-            broken.push_back(first + k);
+        const double part = pull / distance;
+        double *one = f + 3L * pair.i;
+        double *other = KEEPS_GHOSTS && pair.j >= local ? &on_ghosts[HOME * (pair.j - local)] : f + 3L * pair.j;
+        one[0] += dx * part;
+        one[1] += dy * part;
+        one[2] += dz * part;
+        other[0] -= dx * part;
+        other[1] -= dy * part;
+        other[2] -= dz * part;
+        if (TALLIES)
+            tally(k, part, dx, dy, dz);
     }
 }
 
@@ -249,21 +219,13 @@ void PairPendular::look_at_watched()
     if (count == 0)
         return;
     const double *x = atom->x[0];
-    for (int first = 0; first < count; first += BLOCK) {
-        const int size = std::min(BLOCK, count - first);
-        const Watched *block = &watched[first];
-        double beyond[BLOCK];
-        for (int k = 0; k < size; ++k) {
-            const double *from = x + 3L * block[k].i, *to = x + 3L * block[k].j;
-            const double dx = to[0] - from[0], dy = to[1] - from[1], dz = to[2] - from[2];
-            beyond[k] = dx * dx + dy * dy + dz * dz - block[k].near;
-        }
-        int away = 0;
-        for (int k = 0; k < size; ++k)
-            away += beyond[k] > 0.0;
-        for (int k = 0; away < size && k < size; ++k)
-            if (!(beyond[k] > 0.0))
-                arrived.push_back(first + k);
+    for (int k = 0; k < count; ++k) {
+        const Watched &pair = watched[k];
+        fetch(x + 3L * watched[std::min(k + AHEAD, count - 1)].j);
+        const double *from = x + 3L * pair.i, *to = x + 3L * pair.j;
+        const double dx = to[0] - from[0], dy = to[1] - from[1], dz = to[2] - from[2];
+        if (!(dx * dx + dy * dy + dz * dz > pair.near))
+            arrived.push_back(k);
     }
     for (size_t n = arrived.size(); n-- > 0;) {
         const Watched pair = watched[arrived[n]];
