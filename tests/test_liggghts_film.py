@@ -7,7 +7,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from in_liggghts import MODEL, SUCTION, TENSION, dumped, needs_liggghts, resumed, save_tables, scene_of, simulated
+from in_liggghts import (
+    MODEL,
+    SUCTION,
+    TENSION,
+    dumped,
+    needs_liggghts,
+    resumed,
+    rows_of,
+    save_tables,
+    scene_of,
+    simulated,
+)
 from test_liggghts_walls import mesh_walls, stl, strip
 
 EXAMPLES = Path(__file__).parents[1] / "examples" / "liggghts"
@@ -194,6 +205,21 @@ def test_the_grain_that_is_left_has_half_of_the_liquid(liggghts, tmp_path):
     text = (tmp_path / "dump.pull").read_text()
     films = [float(line.split()[-1]) for line in text.splitlines() if line.startswith("1 ")]
     np.testing.assert_allclose(films, [3e-16] + 3 * [3e-16 - 0.5 * VOLUME] + 2 * [3e-16], rtol=1e-12)
+
+
+def test_films_alone_may_say_how_much_a_bridge_holds(liggghts, tmp_path):
+    """Neighbours are sought as far as the most liquid reaches that the table knows, where more than that is allowed."""
+    table = save_tables(tmp_path, "volume", "equal")[1, 1]
+    radius = 25e-6
+    rows = [(1, (0.0, 0.0, 0.0), radius), (1, (0.0, 0.0, 2 * radius * (1 - 2e-3)), radius)]
+    words = {"words": "film on", "before": "fix film all property/atom film scalar yes no no 3e-16"}
+    script = scene_of(rows, "volume", 1e-6, upper=(2,), **words)
+    numbers = rows_of(liggghts, tmp_path, script + "run 600\n")
+    gap = numbers[:, 1, 2] - 2 * radius
+    clear = (gap > 0.0) & (np.abs(gap / table.rupture_distance(6e-16, radius, radius, TENSION) - 1.0) > 1e-4)
+    expected = table.force(gap, 6e-16, radius, radius, TENSION)
+    np.testing.assert_allclose(numbers[clear, 0, 5], expected[clear], rtol=0.0, atol=1e-9 * expected.max())
+    assert 0.0 < np.count_nonzero(expected[clear] == 0.0) < 0.8 * np.count_nonzero(clear)
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 apt-get install -y --no-install-recommends yade gcc && uv run --group test pytest -m yade
 """
 
+import itertools
 import json
 import math
 import re
@@ -148,6 +149,16 @@ def test_what_cannot_be_is_refused_in_one_line(folder, monkeypatch):
             pendular_yade.Bridges(**given)
 
 
+@needs_c
+def test_films_alone_may_say_how_much_a_bridge_holds(folder, monkeypatch):
+    """Neighbours are sought as far as the most liquid reaches that the table knows, where more than that is allowed."""
+    monkeypatch.setattr(pendular_yade, "_HERE", folder / "engine")
+    bridges = pendular_yade.Bridges(folder / "volume.bridges", volume=1.0, film=1e-15, surface_tension=TENSION)
+    bridges._planes = np.empty(0, int)
+    farthest = tables()["volume"].rupture_distance(0.0499 * 30e-6**3, 30e-6, 30e-6, TENSION)
+    assert bridges._reach(np.array([20e-6, 30e-6])) == pytest.approx(1.02 * farthest, rel=1e-3)
+
+
 # In YADE -----------------------------------------------------------------------------------------------------------
 
 SHARES = np.array([-0.01, 0.0, 0.3, 0.6, 0.95, 0.999, 1.001, 0.5])  # of the rupture distance, one step after another
@@ -273,6 +284,120 @@ def test_grains_on_their_ways_have_bridges_over_faces_and_beside_clumps(folder, 
         bridged = now
     assert seen > 20
     assert len(bridged) > 20
+
+
+TRIANGLES = [
+    (0, 1, 3),
+    (0, 3, 2),
+    (4, 5, 7),
+    (4, 7, 6),
+    (0, 1, 5),
+    (0, 5, 4),
+    (2, 3, 7),
+    (2, 7, 6),
+    (0, 2, 6),
+    (0, 6, 4),
+]
+TRIANGLES += [(1, 3, 7), (1, 7, 5)]  # of a box, by its corners
+
+
+def to_triangle(points, corners):
+    """Vectors from points to the nearest point of a triangle: the least of those to its plane, edges and corners."""
+    ways = [np.asarray(corner) - points for corner in corners]
+    for a, b in ((0, 1), (1, 2), (2, 0)):
+        edge = corners[b] - corners[a]
+        share = ((points - corners[a]) @ edge) / (edge @ edge)
+        on_it = corners[a] + share[:, None] * edge - points
+        ways.append(np.where(((share > 0.0) & (share < 1.0))[:, None], on_it, np.inf))
+    normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+    foot = points - ((points - corners[0]) @ normal / (normal @ normal))[:, None] * normal
+    sides = [np.cross(corners[b] - corners[a], foot - corners[a]) @ normal for a, b in ((0, 1), (1, 2), (2, 0))]
+    ways.append(np.where((np.min(sides, axis=0) > 0.0)[:, None], foot - points, np.inf))
+    ways = np.array(ways)
+    nearest = np.linalg.norm(ways, axis=-1).argmin(axis=0)
+    return ways[nearest, np.arange(len(points))]
+
+
+@in_yade
+def test_grains_have_one_bridge_with_facets_and_boxes_in_a_direction(folder):
+    """A floor of facets that sinks, a box and a facet that turn: the nearest part in a direction has the force."""
+    seed = int(np.random.SeedSequence().generate_state(1)[0])
+    print("seed", seed)
+    random, table, suction, radius = np.random.default_rng(seed), tables()["suction"], 20e3, 50e-6
+    count, side = 40, np.linspace(-5.0, 5.0, 6) * radius
+    radii = random.uniform(0.7, 1.0, count) * radius
+    places = np.column_stack([*random.uniform(-5.0, 5.0, (2, count)), random.uniform(0.9, 1.8, count)]) * radius
+    surfaces = []
+    for x0, x1 in itertools.pairwise(side):
+        for y0, y1 in itertools.pairwise(side):
+            a, b, c, d = [(x0, y0, 0.0), (x1, y0, 0.0), (x1, y1, 0.0), (x0, y1, 0.0)]
+            surfaces += [
+                {"corners": corners, "velocity": [0, 0, -0.1], "spin": [0, 0, 0]} for corners in ([a, b, c], [a, c, d])
+            ]
+    turn = random.normal(size=4)
+    surfaces.append(
+        {"place": [0.0, 0.0, 5.5 * radius], "half": [2.0 * radius, 3.0 * radius, 2.5 * radius],
+         "turn": (turn / np.linalg.norm(turn)).tolist(), "velocity": [0.0, 0.0, 0.0], "spin": [2e3, -3e3, 1e3]}
+    )  # fmt: skip
+    surfaces.append(
+        {"corners": (radius * np.array([(-6.0, -6.0, 3.0), (-5.0, 6.0, 3.0), (-6.0, 0.0, 0.0)])).tolist(),
+         "velocity": [0.0, 0.3, 0.0], "spin": [0.0, 4e3, 2e3]}
+    )  # fmt: skip
+    given = {
+        "cell": None, "places": places.tolist(), "radii": radii.tolist(), "clumps": [], "surfaces": surfaces,
+        "velocities": random.normal(0.0, 1.5, (count, 3)).tolist(),
+        "engine": {"table": "suction.bridges", "suction": suction, "surface_tension": TENSION, "skin": 2e-6},
+        "step": 1e-6, "steps": 40, "erased": {}, "added_at": -1,
+    }  # fmt: skip
+    (folder / "moving.json").write_text(json.dumps(given))
+    said = simulated(folder, SCRIPT.with_name("moving.py"))
+    assert (folder / "moved.json").is_file(), said
+    steps = json.loads((folder / "moved.json").read_text())
+    (folder / "moved.json").unlink()
+    pairs, walls, most, seen = set(), {i: [] for i in range(count)}, 0, 0
+    for step in steps:
+        at, forces = np.array(step["places"]), np.zeros((count, 3))
+        distance = np.linalg.norm(at[None] - at[:, None], axis=-1)
+        for i, j in zip(*np.triu_indices(count, 1), strict=True):
+            gap = distance[i, j] - radii[i] - radii[j]
+            force = (
+                float(table.force(gap, suction, radii[i], radii[j], TENSION)) if gap <= 0.0 or (i, j) in pairs else 0.0
+            )
+            (pairs.add if force else pairs.discard)((i, j))
+            pull = force * (at[j] - at[i]) / distance[i, j]
+            forces[i] += pull
+            forces[j] -= pull
+        ways = []
+        for corners in map(np.array, step["surfaces"]):
+            parts = [corners] if len(corners) == 3 else [corners[list(three)] for three in TRIANGLES]
+            each = np.array([to_triangle(at, part) for part in parts])
+            ways.append(each[np.linalg.norm(each, axis=-1).argmin(axis=0), np.arange(count)])
+        ways = np.array(ways)
+        lengths = np.linalg.norm(ways, axis=-1)
+        for i in range(count):
+            order = [n for n in np.argsort(lengths[:, i], kind="stable") if lengths[n, i] < 2.0 * radius]
+            unit = ways[:, i] / lengths[:, i, None]
+            shown = [
+                n
+                for n in order
+                if all(unit[n] @ unit[m] <= math.sqrt(0.5) or lengths[m, i] >= lengths[n, i] for m in order)
+            ]
+            kept = []
+            for n in shown:
+                gap = lengths[n, i] - radii[i]
+                had = any(unit[n] @ way > math.sqrt(0.5) for way in walls[i])
+                force = float(table.force(gap, suction, radii[i], math.inf, TENSION)) if gap <= 0.0 or had else 0.0
+                forces[i] += force * unit[n]
+                if force and not any(np.allclose(unit[n], way, atol=1e-9) for way in kept):
+                    kept.append(unit[n])
+                elif force:
+                    forces[i] -= force * unit[n]  # the same point of two facets
+            walls[i] = kept
+            most = max(most, len(kept))
+        np.testing.assert_allclose(step["forces"], forces, rtol=0.0, atol=1e-7 * np.abs(forces).max())
+        seen += sum(map(len, walls.values()))
+    assert most >= 1
+    assert seen > 100
 
 
 def liquid_of_a_step(table, gaps, former, films, most, share):

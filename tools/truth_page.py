@@ -223,6 +223,24 @@ SUBJECTS: dict[str, tuple[Bound, ...]] = {
             "test_yade_engine.py::test_forces_in_yade_are_those_of_the_table",
         ),
         Bound(
+            "YADE: one bridge with facets and boxes in a direction",
+            "1e-7",
+            "forces of every step, of walls that move and turn",
+            "test_yade_engine.py::test_grains_have_one_bridge_with_facets_and_boxes_in_a_direction",
+        ),
+        Bound(
+            "YADE: the sum of the liquid on grains and in bridges",
+            "1e-12",
+            "grains that fly about, come and go",
+            "test_yade_engine.py::test_liquid_goes_from_grains_to_bridges_and_back",
+        ),
+        Bound(
+            "Kratos: two grains are moved by the exact bridge",
+            "1e-6",
+            "the speeds of every step, up to rupture and beyond",
+            "test_kratos.py::test_two_grains_in_kratos_have_the_exact_bridge",
+        ),
+        Bound(
             "meshes for Surface Evolver: it finds the same bridge",
             "1e-6",
             "its volume, and its energy with the square of an edge",

@@ -11,8 +11,8 @@ import sys
 sys.path.append("engine")
 
 from pendular_yade import Bridges
-from yade import Matrix3, O
-from yade.utils import sphere, wall
+from yade import Matrix3, O, Quaternion, Vector3
+from yade.utils import box, facet, sphere, wall
 from yade.wrapper import ForceResetter, FrictMat, NewtonIntegrator, PyRunner
 
 with open("moving.json") as file:
@@ -29,6 +29,12 @@ for members in given["clumps"]:
     O.bodies.clump(members)
 for place in given.get("walls", []):
     O.bodies.append(wall(place, axis=2))
+surfaces = []
+for each in given.get("surfaces", []):
+    body = facet(each["corners"]) if "corners" in each else box(each["place"], each["half"], Quaternion(*each["turn"]))
+    body.state.blockedDOFs = "xyzXYZ"
+    body.state.vel, body.state.angVel = each["velocity"], each["spin"]
+    surfaces.append(O.bodies.append(body))
 if isinstance(given["engine"].get("film"), dict):
     given["engine"]["film"] = {int(number): volume for number, volume in given["engine"]["film"].items()}
 bridges = Bridges(**given["engine"])
@@ -55,8 +61,20 @@ def look():
             "bridges": [row.tolist()[:4] for row in found],
             "volumes": found["volume"].tolist(),
             "films": bridges.films(),
+            "surfaces": [corners_of(O.bodies[number]) for number in surfaces],
         }
     )
+
+
+def corners_of(body):
+    """Corners of a facet, or of a box, as YADE has them now."""
+    shape = body.shape
+    if hasattr(shape, "vertices"):
+        own = shape.vertices
+    else:
+        x, y, z = shape.extents
+        own = [Vector3(a * x, b * y, c * z) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)]
+    return [list(body.state.pos + body.state.ori * corner) for corner in own]
 
 
 for step in range(given["steps"]):

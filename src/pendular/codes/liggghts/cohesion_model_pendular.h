@@ -283,6 +283,14 @@ private:
         return table.is_volume ? volume_ : suction_;
     }
 
+    /* What is held, or with films the most liquid up to that which the table knows: there may be less. */
+    double known(const pendular_table &table, double radius1, double radius2) const
+    {
+        const double mean = 2.0 / (1.0 / radius1 + 1.0 / radius2);
+        const double most = (1.0 - 1e-9) * table.reduced[1] * mean * mean * mean;
+        return table.is_volume && shared_.has_film ? std::min(volume_, most) : control_of(table);
+    }
+
     /* Largest rupture distance, over the sum of the radii of two grains or over the radius of one at a wall, and a quarter
        of it: for radii between those that are tried, and for bridges that break within a step. Pairs that the table does
        not know are refused where they touch. */
@@ -299,7 +307,7 @@ private:
                         const double radius2
                             = is_wall_ ? INFINITY : smallest + (largest - smallest) * l / (count - 1);
                         const double end = pendular_table_rupture_distance(
-                            &table, control_of(table), radius1, radius2, surface_tension_);
+                            &table, known(table, radius1, radius2), radius1, radius2, surface_tension_);
                         if (end > 0.0)
                             farthest = std::max(farthest, end / (is_wall_ ? radius1 : radius1 + radius2));
                     }

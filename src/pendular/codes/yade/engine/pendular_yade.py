@@ -1,4 +1,4 @@
-"""Exact capillary bridges in YADE: any sizes of grains, clumps, flat walls, periodic cells, both controls.
+"""Exact capillary bridges in YADE: any sizes of grains, clumps, walls, facets, boxes, periodic cells, both controls.
 
     pendular export table --contact-angle 20 --out w.bridges
     pendular export yade-engine --out engine
@@ -11,7 +11,8 @@
     O.engines = [ForceResetter(), InsertionSortCollider(...), InteractionLoop(...),
                  PyRunner(command="bridges.step()", iterPeriod=1, initRun=True), NewtonIntegrator()]
 
-A bridge forms where two grains, or a grain and a wall, touch, and lives to its rupture distance.
+A bridge forms where two grains, or a grain and a wall, touch, and lives to its rupture distance. A grain has one bridge
+with all the facets, boxes and walls that lie in nearly one direction from it.
 
 Copyright (c) 2026, the Pendular developers. SPDX-License-Identifier: BSD-3-Clause. Without any warranty.
 """
@@ -25,8 +26,23 @@ import numpy as np
 
 _HERE = Path(__file__).resolve().parent
 _RUPTURE, _LIQUID, _ENERGY = 0, 2, -2  # answers of pendular_table.h
+_SPHERE, _FACET, _BOX = -1, 3, 4  # kinds of bodies in pendular_yade.c, beside the axes of walls
 _SIZES = 17
 _MARGIN = 1.02  # for sizes between those that are tried
+
+
+class _Heap(ctypes.Structure):
+    """Neighbours and bodies as pendular_yade.c has them."""
+
+    _fields_ = (
+        *((name, ctypes.c_void_p) for name in ("grains", "walls")),
+        ("surface_tension", ctypes.c_double),
+        *((name, ctypes.c_size_t) for name in ("pairs", "bodies", "surfaces")),
+        *((name, ctypes.c_void_p) for name in ("first", "second", "beside", "has_bridge", "volumes", "places")),
+        *((name, ctypes.c_void_p) for name in ("radius", "kind", "surface_of", "surface", "at_surfaces", "is_hidden")),
+        ("out_of_range", ctypes.c_size_t),
+        ("forms_apart", ctypes.c_int),
+    )
 
 
 class Bridges:
@@ -126,29 +142,25 @@ class Bridges:
         )  # in half the time of the lists themselves
         if (len(O.bodies), places.shape[1]) != self._bodies:
             self._take_bodies(O)
+        self._turn()
         cell = np.array([[O.cell.hSize[i][k] for k in range(3)] for i in range(3)]) if O.periodic else None
         if self._is_stale(places, cell):
             self._seek(places, cell)
-        beside = np.zeros((0, 3)) if cell is None else np.ascontiguousarray(self._shift @ cell.T)
-        forces, place = np.zeros_like(places), ctypes.c_size_t()
-        pairs = (*map(_at, (self._first, self._second, beside, self._has_bridge)), self._at_volumes())
-        bodies = (ctypes.c_size_t(self._radius.size), *map(_at, (places, self._radius, self._axis)))
-        how = int(self._forms_apart), int(cell is not None), ctypes.c_size_t(self._first.size)
-        held, tension = ctypes.c_double(self.held), ctypes.c_double(self.surface_tension)
-        status = 0
+        forces = np.zeros_like(places)
+        beside = None if cell is None else np.ascontiguousarray(self._shift @ cell.T)
+        heap = self._heap(places, beside)
+        if self._shapes.size:
+            self._c.pendular_yade_settle(ctypes.byref(heap), _at(self._film))
+        status, held = 0, ctypes.c_double(self.held)
         if self._given_film is not None:
-            offer = np.empty_like(self._film)
-            status = self._c.pendular_yade_exchange(
-                self._grains, self._walls, held, ctypes.c_double(self.share), tension, *how, *pairs, *bodies,
-                _at(self._film), _at(offer), ctypes.byref(place),
-            )  # fmt: skip
+            room = np.empty_like(self._film)
+            share = ctypes.c_double(self.share)
+            status = self._c.pendular_yade_exchange(ctypes.byref(heap), held, share, _at(self._film), _at(room))
         if not status:
             out = map(_at, (forces, self._separation, self._attraction))
-            status = self._c.pendular_yade_step(
-                self._grains, self._walls, held, tension, *how, *pairs, *bodies, *out, ctypes.byref(place)
-            )
+            status = self._c.pendular_yade_step(ctypes.byref(heap), held, *out)
         if status:
-            raise ValueError(self._out_of_range(place.value))
+            raise ValueError(self._told(*self._partner(heap.out_of_range)))
         self._forms_apart = False
         pulled = np.flatnonzero(forces.any(axis=0))
         rows = zip(*forces[:, pulled].tolist(), strict=True)
@@ -165,23 +177,29 @@ class Bridges:
         ids = np.array([body.id for body in bodies])
         kinds = [body.shape.__class__.__name__ for body in bodies]
         radius = [body.shape.radius if kind == "Sphere" else np.nan for body, kind in zip(bodies, kinds, strict=True)]
-        axis = [body.shape.axis if kind == "Wall" else -1 for body, kind in zip(bodies, kinds, strict=True)]
-        self._ids, self._radius, self._axis = ids, np.array(radius), np.array(axis, np.int8)
+        self._ids, self._radius = ids, np.array(radius)
+        self._kind = np.array([_kind_of(body.shape) for body in bodies], np.int8)
+        self._turned = [body for body, kind in zip(bodies, self._kind, strict=True) if kind >= _FACET]
+        self._surfaces = np.flatnonzero(self._kind >= _FACET)
+        self._shapes = np.zeros((self._surfaces.size, 18))  # three corners or half the edges, and a rotation
+        for row, body in zip(self._shapes, self._turned, strict=True):
+            corners = np.ravel(body.shape.vertices if hasattr(body.shape, "vertices") else body.shape.extents)
+            row[: corners.size] = corners
+        self._surface_of = np.zeros(ids.size, np.int32)
+        self._surface_of[self._surfaces] = np.arange(self._surfaces.size)
         self._clump = np.array([body.clumpId if body.isClumpMember else -1 for body in bodies])
-        self._spheres, self._planes = np.flatnonzero(self._radius > 0.0), np.flatnonzero(self._axis >= 0)
+        self._spheres, self._planes = np.flatnonzero(self._radius > 0.0), np.flatnonzero(self._kind >= 0)
         if omega.periodic and self._planes.size:
             raise ValueError("bodies: walls have no place in a periodic cell")
         self._sought = None
-        self._film = np.array([films.get(number, self._first_film(number)) for number in ids.tolist()]) * (
-            self._axis < 0
-        )
+        self._film = np.array([films.get(number, self._first_film(number)) for number in ids.tolist()])
+        self._film[self._kind >= 0] = 0.0
         is_there = np.isin(bridged, ids)
-        for (one, other), (its, others), volume in zip(bridged.T, is_there.T, volumes, strict=True):
-            if (
-                its != others
-            ):  # half of the liquid stays with the grain that is left, and all of it at a wall that is gone
-                left = np.searchsorted(ids, one if its else other)
-                self._film[left] += volume * (1.0 if other in self._former_walls else 0.5) * (self._axis[left] < 0)
+        halves = [1.0 if other in self._former_walls else 0.5 for other in bridged[1].tolist()]
+        for pair, (its, others), volume in zip(bridged.T, is_there.T, volumes * halves, strict=True):
+            if its != others:  # the grain that is left has its part of the liquid
+                left = np.searchsorted(ids, pair[0 if its else 1])
+                self._film[left] += volume * (self._kind[left] < 0)
         self._former_walls = set(ids[self._planes].tolist())
         stands = is_there.all(axis=0)  # bridges of bodies that are still there
         self._first, self._second = (np.searchsorted(ids, column).astype(np.int32) for column in bridged[:, stands])
@@ -195,7 +213,10 @@ class Bridges:
             return True
         strain = np.zeros((3, 3)) if cell is None else cell @ np.linalg.inv(self._sought_cell) - np.eye(3)
         moved = places - self._sought - strain @ self._sought
-        farthest = 2.0 * np.sqrt((moved * moved).sum(axis=0).max(initial=0.0))
+        ways = np.sqrt((moved * moved).sum(axis=0))
+        turned = np.linalg.norm(self._shapes[:, 9:] - self._sought_turns, axis=1)
+        ways[self._surfaces] += turned * self._widths
+        farthest = 2.0 * ways.max(initial=0.0)
         return farthest + np.linalg.norm(strain) * self._longest > self._near
 
     def _seek(self, places, cell):
@@ -204,17 +225,14 @@ class Bridges:
         self._near = 0.1 * radii.min(initial=np.inf) if self._skin is None else self._skin
         self._sought, self._sought_cell, self._sought_for = places, cell, (self.held, self.surface_tension)
         far = self._near + self._reach(radii)
+        self._sought_turns = self._shapes[:, 9:].copy()
         self._longest = far + 2.0 * radii.max(initial=0.0)  # between centres
         if cell is None:
             pairs = [*_near_spheres(self._spheres, places[:, self._spheres].T, radii, far)]
         else:
             one, other, self._shift = _near_in_cell(places[:, self._spheres].T, radii, far, cell)
             pairs = [np.column_stack([self._spheres[one], self._spheres[other]])]
-        for wall in self._planes:
-            axis = self._axis[wall]
-            away = np.abs(places[axis, self._spheres] - places[axis, wall]) - radii
-            near = self._spheres[away < far]
-            pairs.append(np.column_stack([near, np.full_like(near, wall)]))
+        pairs += [self._near_wall(wall, places, far) for wall in self._planes]
         both = np.concatenate(pairs) if pairs else np.empty((0, 2), int)
         clumps = self._clump[both]
         is_free = (clumps[:, 0] < 0) | (clumps[:, 0] != clumps[:, 1])  # grains of one clump have none with each other
@@ -233,6 +251,46 @@ class Bridges:
             at = np.searchsorted(kept, keys[self._has_bridge > 0], sorter=order)
             self._volumes[self._has_bridge > 0] = volumes[order[at]]
         self._separation, self._attraction = np.empty(keys.size), np.empty(keys.size)
+        at = np.flatnonzero(self._kind[self._second] >= 0)
+        self._at_surfaces = at[np.argsort(self._first[at], kind="stable")].astype(np.int32)
+        self._is_hidden = np.zeros(keys.size, np.uint8)
+
+    def _near_wall(self, wall, places, far):
+        """Pairs of spheres with a wall, a facet or a box."""
+        kind, radii, way = self._kind[wall], self._radius[self._spheres], places[:, self._spheres] - places[:, [wall]]
+        if kind < _FACET:
+            near = self._spheres[np.abs(way[kind]) - radii < far]
+            return np.column_stack([near, np.full_like(near, wall)])
+        near = self._spheres[np.linalg.norm(way, axis=0) - radii - self._widths[self._surface_of[wall]] < far]
+        first, second = near.astype(np.int32), np.full(near.size, wall, np.int32)
+        gaps = np.empty(near.size)
+        heap = self._heap(places, None, first=_at(first), second=_at(second), pairs=near.size)
+        self._c.pendular_yade_gaps(ctypes.byref(heap), _at(gaps))
+        return np.column_stack([near, second])[gaps < far]
+
+    def _heap(self, places, beside, **others):
+        """What C looks at."""
+        named = {"places": places, "radius": self._radius, "kind": self._kind, "surface_of": self._surface_of}
+        named |= {"surface": self._shapes, "first": self._first, "second": self._second}
+        if not others:
+            named |= {"has_bridge": self._has_bridge, "at_surfaces": self._at_surfaces, "is_hidden": self._is_hidden}
+            named |= {"volumes": self._volumes} if self._given_film is not None else {}
+            named |= {"beside": beside} if beside is not None else {}
+            others = {"pairs": self._first.size, "surfaces": self._at_surfaces.size}
+        return _Heap(
+            grains=ctypes.addressof(self._grains), walls=ctypes.addressof(self._walls),
+            surface_tension=self.surface_tension, bodies=self._radius.size, forms_apart=self._forms_apart,
+            **{name: _at(numbers) for name, numbers in named.items()} | others,
+        )  # fmt: skip
+
+    def _turn(self):
+        """Take the rotations of facets and boxes, and how far their corners are from their centres."""
+        for row, body in zip(self._shapes, self._turned, strict=True):
+            turn = body.state.ori.toRotationMatrix()
+            row[9:] = [turn[i][k] for i in range(3) for k in range(3)]
+        facets = self._kind[self._surfaces] == _FACET
+        reach = np.linalg.norm(self._shapes[:, :9].reshape(-1, 3, 3), axis=2).max(axis=1, initial=0.0)
+        self._widths = np.where(facets, reach, np.linalg.norm(self._shapes[:, :3], axis=1))
 
     def _first_film(self, number):
         """Liquid on a sphere that has just come."""
@@ -242,11 +300,8 @@ class Bridges:
 
     def _give_back(self, one, other, volume):
         """The liquid of a bridge that broke, to its grains."""
-        walls = self._axis[[one, other]] >= 0
+        walls = self._kind[[one, other]] >= 0
         self._film[[one, other]] += np.where(walls, 0.0, volume / np.count_nonzero(~walls))
-
-    def _at_volumes(self):
-        return ctypes.c_void_p() if self._given_film is None else _at(self._volumes)
 
     def _keys(self, first, second):
         """A number for each pair, whichever of the two is first."""
@@ -260,9 +315,18 @@ class Bridges:
         sizes = np.geomspace(radii.min(), radii.max(), _SIZES)
         partners = [(self._grains, size, other) for size in sizes for other in sizes]
         partners += [(self._walls, size, np.inf) for size in sizes] if self._planes.size else []
-        held = max(self.held, self._volumes.max(initial=-np.inf)) if self._volumes.size else self.held
-        ends = [self._asked(table, _RUPTURE, 0.0, held, *radii) for table, *radii in partners]
+        held = max(self.held, self._volumes.max(initial=0.0))
+        ends = [
+            self._asked(table, _RUPTURE, 0.0, self._known(table, held, *radii), *radii) for table, *radii in partners
+        ]
         return _MARGIN * float(np.nan_to_num(ends).max())
+
+    def _known(self, table, held, radius1, radius2):
+        """The most liquid up to this that the table knows for a pair, for films may give less; else what is held."""
+        if self._given_film is None:
+            return held
+        mean = 2.0 / (1.0 / radius1 + 1.0 / radius2)
+        return min(held, (1.0 - 1e-9) * self._about(table)[3] * mean**3)
 
     # The table -------------------------------------------------------------------------------------------------------
 
@@ -285,7 +349,7 @@ class Bridges:
     def _partner(self, pair):
         """Table and radii of a pair."""
         i, j = self._first[pair], self._second[pair]
-        if self._axis[j] >= 0:
+        if self._kind[j] >= 0:
             return self._walls, self._radius[i], np.inf
         return self._grains, self._radius[i], self._radius[j]
 
@@ -293,9 +357,6 @@ class Bridges:
         table, radius1, radius2 = self._partner(pair)
         held = self.held if self._given_film is None else self._volumes[pair]
         return self._asked(table, asked, self._separation[pair], held, radius1, radius2)
-
-    def _out_of_range(self, pair):
-        return self._told(*self._partner(pair))
 
     def _told(self, table, radius1, radius2):
         _, _, low, high, least, largest = self._about(table)
@@ -307,6 +368,12 @@ class Bridges:
 def _at(numbers):
     """Where C finds the numbers of an array."""
     return ctypes.c_void_p(numbers.ctypes.data)
+
+
+def _kind_of(shape):
+    """Number of a kind of body: the axis of a wall, else as in pendular_yade.c; what is no wall is a sphere."""
+    name = shape.__class__.__name__
+    return shape.axis if name == "Wall" else {"Facet": _FACET, "Box": _BOX}.get(name, _SPHERE)
 
 
 def _near_spheres(numbers, places, radii, far):
