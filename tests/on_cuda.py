@@ -80,11 +80,11 @@ class Lent:
 
     streams: ClassVar = []
 
-    def __init__(self, array):
-        self.array, self.shape = array, array.shape
+    def __init__(self, array, number=0):
+        self.array, self.number = array, number
 
     def __dlpack_device__(self):
-        return 2, 0
+        return 2, self.number
 
     def __dlpack__(self, *, stream=None, **options):
         self.streams.append(stream)
@@ -103,7 +103,7 @@ def check_lent(table, separation, control, radius1, radius2):
     assert isinstance(found, Lent)
     assert np.array_equal(found.array, expected)
     assert set(Lent.streams) == {1}, "that of the default, by its name in DLPack"
-    view = device._viewed(gaps, 0)
+    view = device._viewed("separation", gaps, 0)
     gaps.array[0, 0] = 3.0
     assert view[0, 0] == 3.0
     out = Lent(np.empty((2, 3)))
@@ -113,6 +113,7 @@ def check_lent(table, separation, control, radius1, radius2):
     assert table.force(gaps, *pair, out=host) is host
     assert np.array_equal(host, out.array)
     assert "separation: is not a contiguous" in refusal(table.force, Lent(gaps.array.T), *pair)
+    assert "separation: lies on device 1, not on" in refusal(table.force, Lent(gaps.array, 1), *pair)
     assert "separation: is not a contiguous" in refusal(table.force, Lent(gaps.array.astype(np.float32)), *pair)
 
 

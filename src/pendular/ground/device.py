@@ -137,14 +137,18 @@ def _stream_of(array: Any) -> Any:
     return cuda.external_stream(pointer) if pointer and not IS_SIMULATED else 0
 
 
-def _viewed(array: Any, stream: Any) -> Any:
+def _viewed(name: str, array: Any, stream: Any) -> Any:
     """An array of another library as Numba's, in the same memory, once what was done to it before is done."""
     if not hasattr(array, "__dlpack__"):
         return cuda.as_cuda_array(array)
     from cuda.core.utils import StridedMemoryView  # comes with numba-cuda
 
-    pointer = getattr(getattr(stream, "handle", None), "value", None) or _LEGACY_DEFAULT
-    lent = _Lent(StridedMemoryView.from_dlpack(array, stream_ptr=pointer))
+    number = array.__dlpack_device__()[1]
+    current = 0 if IS_SIMULATED else cuda.get_current_device().id
+    if number != current:
+        raise ValueError(f"{name}: lies on device {number}, not on the current one, {current}")
+    pointer = int(stream) if stream else 0
+    lent = _Lent(StridedMemoryView.from_dlpack(array, stream_ptr=pointer or _LEGACY_DEFAULT))
     return _simulated(lent) if IS_SIMULATED else cuda.as_cuda_array(lent)
 
 
@@ -166,7 +170,7 @@ def read_one(name: str, value: Operand, unit: str, stream: Any, kinds: str = "fl
     """An operand as an array, where it lies."""
     if not is_on_device(value):
         return numbers(name, value, unit)
-    array: Any = value if hasattr(value, "__cuda_ndarray__") else _viewed(value, stream)
+    array: Any = value if hasattr(value, "__cuda_ndarray__") else _viewed(name, value, stream)
     if array.dtype not in [np.dtype(kind) for kind in kinds.split()] or not array.is_c_contiguous():
         raise ValueError(f"{name}: is not a contiguous {kinds.replace(' ', ' or ')} array on the device")
     return array

@@ -34,6 +34,7 @@ from ..table import kernels, warps
 from ..table.cuda import REGISTERS, DeviceTable, has_warps
 from ..table.kernels import Grid
 from ..table.packed import WHOLE_WARP, Packed
+from ..table.table import operands_of
 from .step import distance_of
 
 __all__ = ["DeviceForces", "carried", "contact_forces", "sums_in_order"]
@@ -279,6 +280,19 @@ def _listed(name: str, pairs: Any, stream: Any) -> Any:
     return array if is_on_device(array) else cuda.to_device(array, stream=stream)
 
 
+def _control(table: DeviceTable, control: Any, contacts: int, stream: Any) -> Any:
+    """One number for all contacts, or one for each, on the device."""
+    unit = operands_of(table.control)[table.control]
+    is_number = not is_on_device(control) and np.ndim(control) == 0
+    given = np.full(1, scalar("control", control, unit)) if is_number else control
+    array = _there("control", given, unit, (None,), stream)
+    if array.size not in (1, contacts):
+        raise ValueError(
+            f"control: an array of shape {tuple(array.shape)} is not one number for each of {contacts} pairs"
+        )
+    return array
+
+
 def _most_blocks() -> int:
     processors = 1 if IS_SIMULATED else cuda.get_current_device().MULTIPROCESSOR_COUNT
     return _BLOCKS * int(processors)
@@ -313,7 +327,7 @@ def contact_forces(
         Centres, [m].
     radii : array, (particles,)
         [m].
-    control : float or array, (contacts,)
+    control : float or array, (contacts,) or (1,)
         Suction in each bridge, [Pa], or the volume, [m³], of those that form now.
     surface_tension : float
         [N/m].
@@ -344,11 +358,7 @@ def contact_forces(
     contacts = listed.shape[0]
     sizes = _there("radii", radii, "m", (None,), stream)
     centres = _there("positions", positions, "m", (sizes.size, 3), stream)
-    unit = "Pa" if table.control == "suction" else "m**3"
-    given = (
-        np.full(1, scalar("control", control, unit)) if not is_on_device(control) and np.ndim(control) == 0 else control
-    )
-    held = _there("control", given, unit, (1 if np.size(given) == 1 and not is_on_device(given) else contacts,), stream)
+    held = _control(table, control, contacts, stream)
     former = _there("state", np.empty(0) if state is None else state, "", (0 if state is None else contacts,), stream)
     rows = [cuda.device_array(max(contacts, 1), stream=stream)[:contacts] for _ in range(3)]
     force, totals = cuda.device_array((sizes.size, 3), stream=stream), cuda.device_array(10, stream=stream)
