@@ -63,7 +63,8 @@ GOALS = "Wanted are at most 4 times the paper's form for the table, and 15 ns fo
 NOT_TIMED = f"""No GPU was at hand for this page, so **nothing was timed on one**: not the
 table, with eight threads a contact or one, in the order of its cells or out of it; not a whole step; not the exact
 solver, at a suction and at a volume; not the chunks of large arrays; and not a copy and the paper's form beside them.
-The command measures all of these where there is a GPU. {GOALS}"""
+The command measures all of these where there is a GPU.
+{GOALS}"""
 
 
 class Contacts(NamedTuple):
@@ -217,7 +218,7 @@ def of_bridges(sample: Sample) -> tuple[list[Line], str]:
     def launch(wanted: int, names: tuple[str, ...] | None) -> Callable[[], None]:
         room = room_for(count, names)
         there = room._replace(**{name: cuda.to_device(part) for name, part in room._asdict().items()})
-        return lambda: loop(wanted)[blocks, THREADS](held, *rows, GAMMA, near, there, statuses)
+        return lambda: loop(wanted, held)[blocks, THREADS](*rows, GAMMA, near, there, statuses)
 
     force = launch(FORCE_ALONE, ("force",))
     force()
@@ -252,7 +253,8 @@ def measured(lines: list[Line], contacts: Contacts) -> str:
         f"| {name} | {cost:.4f} | {cost / costs[PAPER]:.2f} | {shares.get(name, '')} | {errors.get(name, '')} |"
         for name, cost in costs.items()
     ]
-    return f"""A copy on the device moved {bandwidth:.0f} GB/s. {GOALS}
+    return f"""A copy on the device moved {bandwidth:.0f} GB/s.
+{GOALS}
 
 | | ns a contact, pair or bridge | ratio to the paper's form | share of memory bandwidth | error |
 |---|---:|---:|---:|---:|

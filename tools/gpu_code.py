@@ -23,6 +23,8 @@ import pendular as pl
 from pendular.ask import cuda as ask_cuda
 from pendular.ask.fields import room_for
 from pendular.exact.batch import ALL, FORCE_ALONE
+from pendular.exact.equations import SUCTION, VOLUME
+from pendular.ground import device_groups
 from pendular.packing import cuda as packing_cuda
 from pendular.table import cuda as table_cuda
 from pendular.table.packed import pack
@@ -79,10 +81,23 @@ def gpu_kernels(table: pl.Table) -> list[GpuKernel]:
         loop = packing_cuda.step_loop(pull, adds, registers)
         signature = types.void(*stepping, types.int64[::1], row)
         found.append(GpuKernel(f"step, {name}", loop, signature, registers, True))
-    asking = (types.int64, *6 * (row,), types.float64, whole, typeof(room_for(1, None)), types.int8[::1])
+    asking = (*6 * (row,), types.float64, whole, typeof(room_for(1, None)), types.int8[::1])
     for name, wanted in (("force", FORCE_ALONE), ("all fields", ALL)):
-        found.append(GpuKernel(f"solver: {name}", ask_cuda.loop(wanted), types.void(*asking), None, False))
-    return found
+        for held, control in (("suction", SUCTION), ("volume", VOLUME)):
+            loop, registers = ask_cuda.loop(wanted, control), ask_cuda.registers_for(wanted, control)
+            found.append(GpuKernel(f"solver at a {held}: {name}", loop, types.void(*asking), registers, False))
+    numbers = types.int64[::1]
+    others = (
+        ("table: cell of a contact", table_cuda.loop_of(table_cuda.cell_number), (grid, *5 * (row,), numbers)),
+        ("groups: count", device_groups.count_items, (numbers, numbers)),
+        ("groups: place", device_groups.place_items, (numbers, numbers, numbers)),
+        ("groups: put in order", device_groups.put_in_order, (numbers, numbers)),
+        ("step: clear", packing_cuda.clear, (whole, numbers)),
+        ("step: add up in order", packing_cuda.add_up(), (numbers, numbers, listed, whole, row, whole)),
+        ("step: carry to a new list", packing_cuda.carry, (numbers, numbers, listed, row, listed, row, numbers)),
+        ("solver: put", ask_cuda.put, (numbers, row, row)),
+    )
+    return found + [GpuKernel(name, loop, types.void(*given), None, False) for name, loop, given in others]
 
 
 def without_a_device(capability: tuple[int, int]) -> None:

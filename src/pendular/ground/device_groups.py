@@ -17,21 +17,21 @@ class Groups(NamedTuple):
 
 
 @cuda.jit
-def _count(keys: Any, start: Any) -> None:
+def count_items(keys: Any, start: Any) -> None:
     i = cuda.grid(1)
     if i < keys.size and 0 <= keys[i] < start.size - 1:
         cuda.atomic.add(start, keys[i] + 1, 1)
 
 
 @cuda.jit
-def _place(keys: Any, end: Any, items: Any) -> None:
+def place_items(keys: Any, end: Any, items: Any) -> None:
     i = cuda.grid(1)
     if i < keys.size and 0 <= keys[i] < end.size - 1:
         items[cuda.atomic.add(end, keys[i], 1)] = i
 
 
 @cuda.jit
-def _put_in_order(start: Any, items: Any) -> None:
+def put_in_order(start: Any, items: Any) -> None:
     """Items of each key in ascending order, of which there are few."""
     key = cuda.grid(1)
     if key < start.size - 1:
@@ -51,11 +51,11 @@ def group(keys: Any, count: int, stream: Any, in_order: bool) -> Groups:
     start = cuda.to_device(np.zeros(count + 1, np.int64), stream=stream)
     items = cuda.device_array(max(keys.size, 1), np.int64, stream=stream)
     if keys.size:
-        _count[blocks_for(keys.size), THREADS, stream](keys, start)
+        count_items[blocks_for(keys.size), THREADS, stream](keys, start)
     begins = np.cumsum(on_host(start, stream))
     start, end = (cuda.to_device(begins, stream=stream) for _ in range(2))
     if keys.size:
-        _place[blocks_for(keys.size), THREADS, stream](keys, end, items)
+        place_items[blocks_for(keys.size), THREADS, stream](keys, end, items)
         if in_order and count:
-            _put_in_order[blocks_for(count), THREADS, stream](start, items)
+            put_in_order[blocks_for(count), THREADS, stream](start, items)
     return Groups(start, items)

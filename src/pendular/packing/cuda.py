@@ -135,6 +135,7 @@ def _total(sums: Any, parts: Any, finished: Any, totals: Any) -> None:
     cuda.syncthreads()
     if not is_last[0]:
         return
+    cuda.threadfence()  # what other blocks wrote is read anew
     for k in range(_SUMS):
         sums[thread, k] = 0.0
         for block in range(thread, cuda.gridDim.x, THREADS):
@@ -204,7 +205,7 @@ def step_loop(pull: Any, adds: bool, registers: int) -> Any:
 
 
 @cuda.jit
-def _clear(force: Any, finished: Any) -> None:
+def clear(force: Any, finished: Any) -> None:
     i = cuda.grid(1)
     if i == 0:
         finished[0] = 0
@@ -214,7 +215,7 @@ def _clear(force: Any, finished: Any) -> None:
 
 
 @cache
-def _add_up() -> Any:
+def add_up() -> Any:
     """Pulls of the contacts of each particle, in their order, one particle for each thread."""
     is_pair, distance_between = compiled(_is_pair), compiled(distance_of)
 
@@ -239,7 +240,7 @@ def _add_up() -> Any:
 
 
 @cuda.jit
-def _carry(start: Any, items: Any, former_pairs: Any, former: Any, pairs: Any, state: Any, counts: Any) -> None:
+def carry(start: Any, items: Any, former_pairs: Any, former: Any, pairs: Any, state: Any, counts: Any) -> None:
     """States of the same pairs in a former list; counts of those that stood and of those that were found."""
     i = cuda.grid(1)
     if i < former.size and former[i] == former[i]:
@@ -364,14 +365,14 @@ def contact_forces(
     force, totals = cuda.device_array((sizes.size, 3), stream=stream), cuda.device_array(10, stream=stream)
     blocks = min(max(blocks_for(contacts), 1), _most_blocks())
     parts, finished = cuda.device_array((blocks, _SUMS), stream=stream), cuda.device_array(1, np.int64, stream=stream)
-    _clear[blocks_for(sizes.size + 1), THREADS, stream](force, finished)
+    clear[blocks_for(sizes.size + 1), THREADS, stream](force, finished)
     pull, registers = pull_by(with_energy)
     step_loop(pull, sums is None, registers)[blocks, THREADS, stream](
         table.grid, table.packed, listed, centres, sizes, held, tension, reach, former, *rows, force, parts, finished,
         totals,
     )  # fmt: skip
     if sums is not None and sizes.size:
-        _add_up()[blocks_for(sizes.size), THREADS, stream](*sums, listed, centres, rows[2], force)
+        add_up()[blocks_for(sizes.size), THREADS, stream](*sums, listed, centres, rows[2], force)
     energy = totals[:1] if with_energy else None
     found = (rows[0], force, totals[1:].reshape((3, 3)), energy, rows[1], rows[2])
     if like is None:
@@ -385,6 +386,18 @@ def sums_in_order(pairs: Any, particles: int) -> Groups:
     """Which contacts are those of each particle, in their order, for sums that are the same in every run.
 
     It serves as long as the list of pairs stays, and waits once for the device.
+
+    Parameters
+    ----------
+    pairs : array of int64 or int32, (contacts, 2)
+        As for :func:`contact_forces`.
+    particles : int
+        How many there are.
+
+    Returns
+    -------
+    Groups
+        For ``sums`` of :func:`contact_forces`.
     """
     _, stream, _ = home_of((pairs,))
     listed = _listed("pairs", pairs, stream)
@@ -392,7 +405,21 @@ def sums_in_order(pairs: Any, particles: int) -> Groups:
 
 
 def carried(state: Any, former_pairs: Any, pairs: Any, particles: int) -> Any:
-    """The state of a step in the order of a new list of pairs.
+    """The state of a step in the order of a new list of pairs; it waits for the device.
+
+    Parameters
+    ----------
+    state : array, (contacts,)
+        That of :func:`contact_forces`.
+    former_pairs, pairs : array of int64 or int32, (contacts, 2)
+        The list to which the state belongs, and the new one; the two of a pair may change places.
+    particles : int
+        How many there are.
+
+    Returns
+    -------
+    array
+        The state for the new list.
 
     Raises
     ------
@@ -406,7 +433,7 @@ def carried(state: Any, former_pairs: Any, pairs: Any, particles: int) -> Any:
     fresh = cuda.device_array(max(listed.shape[0], 1), stream=stream)[: listed.shape[0]]
     counts = cuda.to_device(np.zeros(2, np.int64), stream=stream)
     blocks = max(blocks_for(max(former.size, fresh.size)), 1)
-    _carry[blocks, THREADS, stream](*groups, former_list, former, listed, fresh, counts)
+    carry[blocks, THREADS, stream](*groups, former_list, former, listed, fresh, counts)
     stood, found = on_host(counts, stream).tolist()
     if found < stood:
         raise ValueError(f"pairs: {stood - found} of {stood} bridges stand between pairs that are not there")
