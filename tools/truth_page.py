@@ -181,10 +181,10 @@ SUBJECTS: dict[str, tuple[Bound, ...]] = {
     ),
     "The solver elsewhere": (
         Bound(
-            "C library: equal to Python to the last bit",
+            "C library: ruptures equal to Python to the last bit",
             "",
             "rows of random questions",
-            "test_c_library.py::test_it_is_equal_to_python_to_the_last_bit",
+            "test_c_library.py::test_it_is_equal_to_python",
         ),
         Bound(
             "WebAssembly, in arrays",
