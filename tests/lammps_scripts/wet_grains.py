@@ -54,8 +54,8 @@ def model(style, coefficients):
     """
 
 
-def simulation(plugin, grains, coefficients, *, style="", newton="on", film=None):
-    """LAMMPS with these grains in a periodic box, each with a film if there is one."""
+def simulation(plugin, grains, coefficients, *, style="", newton="on", film=None, before=""):
+    """LAMMPS with these grains in a periodic box, perhaps each with a film, and some commands before the model."""
     radii, positions, velocities, box = grains
     count = len(radii)
     lmp = opened(plugin, "units si", "atom_style sphere", "atom_modify map array", f"newton {newton}", "boundary p p p")
@@ -65,7 +65,7 @@ def simulation(plugin, grains, coefficients, *, style="", newton="on", film=None
         lmp.command(f"set atom {tag} diameter {2 * radius!r} density 2500")
         if film is not None:
             lmp.command(f"set atom {tag} d_film {float(film[tag - 1])!r}")
-    lmp.commands_string(model(style, coefficients))
+    lmp.commands_string(before + model(style, coefficients))
     return lmp
 
 

@@ -2,6 +2,7 @@
 #include "fix_bridges.h"
 
 #include <cstring>
+#include <numeric>
 
 #include "atom.h"
 #include "comm.h"
@@ -76,14 +77,35 @@ void FixBridges::pre_exchange()
     fill();
     counts_only = false;
     comm->reverse_comm_variable(this);
+    for (int i = local; i < static_cast<int>(count.size()); ++i) /* ghosts, and atoms that were added since */
+        count[i] = 0;
+    follow_moves();
     most = 0;
-    for (int i = 0; i < local; ++i) {
+    for (int i = 0; i < atom->nlocal; ++i) {
         most = std::max(most, count[i]);
         known_as[i] = atom->tag[i];
     }
     maxexchange = PARTNER * most + 2;
-    for (int i = local; i < static_cast<int>(count.size()); ++i) /* ghosts, and atoms that were added since */
-        count[i] = 0;
+}
+
+/* A fix before this one may have deleted atoms, and put others in their places. The ranks talked of the atoms where they
+   were when the list was built. */
+void FixBridges::follow_moves()
+{
+    if (moves.empty())
+        return;
+    std::vector<int> former(count.size());
+    std::iota(former.begin(), former.end(), 0);
+    for (const auto &[from, to] : moves)
+        former[to] = from < 0 ? -1 : former[from];
+    moves.clear();
+    const std::vector<size_t> start_before = start;
+    const std::vector<int> count_before = count;
+    for (int i = 0; i < atom->nlocal; ++i) {
+        start[i] = former[i] < 0 ? 0 : start_before[former[i]];
+        count[i] = former[i] < 0 ? 0 : count_before[former[i]];
+    }
+    std::fill(count.begin() + atom->nlocal, count.end(), 0);
 }
 
 /* The same with the liquid in the bridges, so that what was drained may go on undrained, with the liquid that it has. */
@@ -141,6 +163,8 @@ void FixBridges::grow_arrays(int most_atoms)
 
 void FixBridges::copy_arrays(int i, int j, int)
 {
+    if (is_behind)
+        moves.emplace_back(i, j);
     start[j] = start[i];
     count[j] = count[i];
     known_as[j] = known_as[i];
@@ -148,6 +172,8 @@ void FixBridges::copy_arrays(int i, int j, int)
 
 void FixBridges::set_arrays(int i)
 {
+    if (is_behind)
+        moves.emplace_back(-1, i);
     count[i] = 0;
 }
 

@@ -3,6 +3,7 @@
 #ifndef PENDULAR_LAMMPS_FIX_BRIDGES_H
 #define PENDULAR_LAMMPS_FIX_BRIDGES_H
 
+#include <utility>
 #include <vector>
 
 #include "fix.h"
@@ -66,9 +67,11 @@ private:
     int most = 0; /* partners of an atom */
     int local = 0, all = 0; /* atoms when the list was built */
     bool is_behind = false; /* the pair style has gone on since the atoms got their partners */
+    std::vector<std::pair<int, int>> moves; /* since then, from place to place; from -1 if the atom is a new one */
     bool counts_only = false, volumes_wanted = false;
 
     void keep_volumes();
+    void follow_moves();
     void fill();
     void add(int, const Partner &);
     int pack(int, double *) const;
