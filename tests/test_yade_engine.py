@@ -372,8 +372,12 @@ def test_grains_have_one_bridge_with_facets_and_boxes_in_a_direction(folder):
             parts = [corners] if len(corners) == 3 else [corners[list(three)] for three in TRIANGLES]
             each = np.array([to_triangle(at, part) for part in parts])
             ways.append(each[np.linalg.norm(each, axis=-1).argmin(axis=0), np.arange(count)])
-        ways = np.array(ways)
+        ways, block = np.array(ways), np.array(next(each for each in step["surfaces"] if len(each) == 8))
         lengths = np.linalg.norm(ways, axis=-1)
+        edges = block[[4, 2, 1]] - block[0]
+        share = (at - block[0]) @ edges.T / (edges * edges).sum(axis=1)
+        is_within = ((share > 0.0) & (share < 1.0)).all(axis=1)
+        lengths[-2, is_within] *= -1.0  # a grain in the box is pulled further in, as it overlaps
         for i in range(count):
             order = [n for n in np.argsort(lengths[:, i], kind="stable") if lengths[n, i] < 2.0 * radius]
             unit = ways[:, i] / lengths[:, i, None]
