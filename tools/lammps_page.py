@@ -284,10 +284,11 @@ pair_coeff 1 1 table bridge.table BRIDGE
 The plug-in is for processors: there is no KOKKOS style of it, as no LAMMPS with KOKKOS on a GPU was at hand. What such
 a style would ask of a bridge in each step is ready in `contact.h` of the sources: `Ends` of all bridges, and `Cell` of
 the few whose solids are apart, each in a flat array and without pointers, beside the number that each bridge has of its
-cell; `pull_of` and `pendular_damping`, functions for host and device, as those of `pendular_table.h` are, of which a new cell
-is made. CI compiles a functor of them with nvcc and checks it with clang as HIP (`tests/c_programs/like_kokkos.cpp`);
-neither was run on a GPU. Missing are the style around that functor, with its views, and the step that hands to the host
-which bridges broke or left their cell; forming, breaking and the talk between ranks stay with the host.
+cell; `pull_of` and `pendular_damping`, functions for host and device, as those of `pendular_table.h` are, of which a
+new cell is made. CI compiles a functor of them with nvcc and checks it with clang as HIP
+(`tests/c_programs/like_kokkos.cpp`); neither was run on a GPU. Missing are the style around that functor, with its
+views, and the step that hands to the host which bridges broke or left their cell; forming, breaking and the talk
+between ranks stay with the host.
 
 ## From the coupler in Python
 
