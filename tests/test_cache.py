@@ -239,6 +239,13 @@ def test_the_stamp_covers_all_that_a_kernel_can_reach():
             assert {modules[name] for name in parsed_imports(source) & set(modules)} <= covered, (path, source)
 
 
+@pytest.mark.parametrize(
+    ("kernels", "written"), [("exact/abreast.py", "ground/vectors.py"), ("table/kernels.py", "table/lanes.py")]
+)
+def test_the_stamp_covers_where_the_compiled_form_of_a_kernel_is_written(kernels, written):
+    assert PACKAGE / written in stamp._sources_of(PACKAGE / kernels)
+
+
 @pytest.mark.parametrize("room", ["exact", "laws", "table"])
 def test_no_kernel_depends_on_what_is_above_it(room):
     """Else a change of a command would compile the solver anew."""

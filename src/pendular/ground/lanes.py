@@ -14,34 +14,32 @@ __all__ = ["choose", "every", "lanes", "lanes_of", "put_lanes"]
 
 Floats = NDArray[np.float64]
 
-_VECTORS = "pendular.ground.vectors"
 
-
-@kernel_written_in(_VECTORS)
+@kernel_written_in("pendular.ground.vectors")
 def lanes() -> int:
     """How many rows are answered at once."""
     return 1
 
 
-@kernel_written_in(_VECTORS)
+@kernel_written_in("pendular.ground.vectors")
 def lanes_of(array: Floats, start: int) -> float:
     """Numbers of an array from a start."""
     return float(array[start])
 
 
-@kernel_written_in(_VECTORS)
+@kernel_written_in("pendular.ground.vectors")
 def put_lanes(array: Floats, start: int, numbers: float) -> None:
     """Store numbers in an array from a start."""
     array[start] = numbers
 
 
-@kernel_written_in(_VECTORS)
+@kernel_written_in("pendular.ground.vectors")
 def choose(condition: bool, number: float, other: float) -> float:
     """The first number where the condition holds, else the other; both are computed."""
     return number if condition else other
 
 
-@kernel_written_in(_VECTORS)
+@kernel_written_in("pendular.ground.vectors")
 def every(condition: bool) -> bool:
     """Whether a condition holds in all lanes."""
     return condition

@@ -15,7 +15,7 @@ __all__ = ["name_of", "source_stamp", "stamp_of"]
 
 _HOME = Path(__file__).parent.parent
 _PACKAGE = _HOME.name
-_MODULE = re.compile(rf'"({_PACKAGE}(?:\.\w+)+)"')  # in which the compiled form of a kernel is written
+_WRITTEN_IN = re.compile(r'kernel_written_in\("([\w.]+)"\)')
 _IMPORT = re.compile(r"^[ \t]*(?:from[ \t]+(\S+)[ \t]+)?import[ \t]+(\([^)]*\)|.*)", re.MULTILINE)
 
 
@@ -85,8 +85,11 @@ def _imported_by(name: str) -> frozenset[str]:
 
 
 def _named_in(source: str, package: str) -> Iterator[str]:
-    """Names in import statements; a parser would tell them from the words around, and take a quarter of a second."""
-    yield from _MODULE.findall(source)
+    """Names in import statements, and modules in which the compiled form of a kernel is written.
+
+    A parser would tell imports from the words around, and take a quarter of a second.
+    """
+    yield from _WRITTEN_IN.findall(source)
     for origin, rest in _IMPORT.findall(source):
         words = re.findall(r"[\w.]+", rest)
         if not origin:
