@@ -84,8 +84,8 @@ def gpu_kernels(table: pl.Table) -> list[GpuKernel]:
     asking = (*6 * (row,), types.float64, whole, typeof(room_for(1, None)), types.int8[::1])
     for name, wanted in (("force", FORCE_ALONE), ("all fields", ALL)):
         for held, control in (("suction", SUCTION), ("volume", VOLUME)):
-            loop, registers = ask_cuda.loop(wanted, control), ask_cuda.registers_for(wanted, control)
-            found.append(GpuKernel(f"solver at a {held}: {name}", loop, types.void(*asking), registers, False))
+            loop = ask_cuda.loop(wanted, control)
+            found.append(GpuKernel(f"solver at a {held}: {name}", loop, types.void(*asking), None, False))
     numbers = types.int64[::1]
     others = (
         ("table: cell of a contact", table_cuda.loop_of(table_cuda.cell_number), (grid, *5 * (row,), numbers)),

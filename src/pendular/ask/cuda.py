@@ -20,7 +20,6 @@ from ..ground.compile import compiled, kernel
 from ..ground.device import (
     THREADS,
     Operand,
-    at_most,
     blocks_for,
     cuda,
     flat,
@@ -56,20 +55,15 @@ def _is_angle(angle: float) -> bool:
     return 0.0 <= angle < math.pi
 
 
-def registers_for(wanted: int, control: int) -> int:
-    """Registers of a thread at most: for forces at a suction so many that twelve warps find room, not eight."""
-    return 168 if (wanted, control) == (FORCE_ALONE, SUCTION) else 255
-
-
 @cache
 def loop(wanted: int, control: int) -> Any:
     """Fields of rows, or what is known with the force, one row for each thread of the GPU.
 
-    Compiled for one control it needs less registers: 186 in the place of 232 for a force at a suction.
+    Compiled for one control it needs less registers.
     """
     answer, at, is_angle, leave = compiled(fields_range), compiled(element), compiled(_is_angle), compiled(leave_empty)
 
-    @cuda.jit(**at_most(registers_for(wanted, control)))
+    @cuda.jit
     def fill(
         separation: Any, held: Any, radius1: Any, radius2: Any, angle1: Any, angle2: Any,
         tension: float, near: Any, room: Room, statuses: Any,
