@@ -77,6 +77,7 @@ def broken_links(folder: Path, links: dict[Path, Links]) -> list[str]:
                 wrong.append(f"{path.relative_to(folder)}: {target} is not there")
             elif (
                 place
+                and "=" not in place  # else what a page is to show, as the explorer keeps it in its address
                 and file.suffix == ".html"
                 and place not in links[folder / file.relative_to(folder.resolve())].places
             ):
