@@ -31,6 +31,7 @@ FILES = {
     "src/pendular/dataset": "data",
     "src/pendular/packing/retention.py": "data",
     "src/pendular/codes/grains/labelled.py": "data",
+    "tests/test_cuda.py": "cuda",  # a simulator that knows lanes and selections
     "tests/test_dataset.py": "data",
     "tests/test_kratos.py": "kratos",
     "tests/test_lammps.py": "lammps",

@@ -249,7 +249,6 @@ def test_the_solver_is_that_of_the_processor(tmp_path):
             )
 
 
-@pytest.mark.needs("cuda")
 def test_a_device_gives_what_the_processor_does(folder, tmp_path):
     there = tmp_path / "there"
     shutil.copytree(folder, there)
@@ -266,7 +265,6 @@ def test_a_device_gives_what_the_processor_does(folder, tmp_path):
                 np.testing.assert_allclose(found, expected, rtol=1e-12)
 
 
-@pytest.mark.needs("cuda")
 @pytest.mark.parametrize(
     "capability", ["9.0", *(pytest.param(other, marks=pytest.mark.long) for other in ("7.0", "7.5", "8.0", "8.9"))]
 )
