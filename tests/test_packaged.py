@@ -50,7 +50,7 @@ def package(function):
     with native.for_the_package() as made:
         native.build(function, arguments())
     native._loaded.clear()
-    packaged.write(packaged.FILE, made.values())
+    packaged.write(packaged.FILE, [objects.object_of_all(made, packaged.PROCESSOR)])
     return made
 
 

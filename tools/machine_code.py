@@ -7,16 +7,16 @@ import sys
 from pathlib import Path
 
 from pendular.front.ahead import Made, compile_ahead
-from pendular.ground import native, packaged
+from pendular.ground import native, objects, packaged
 
 
 def main(path: Path) -> None:
     """Compile every entry for the processor of the package, and link them."""
-    with native.for_the_package() as objects:
+    with native.for_the_package() as entries:
         for question in compile_ahead(tell):
             sys.stdout.write(f"{question}: ready\n")
-    packaged.write(path, objects.values())
-    sys.stdout.write(f"{path}: {len(objects)} kernels, {path.stat().st_size / 1e6:.1f} MB\n")
+    packaged.write(path, [objects.object_of_all(entries, packaged.PROCESSOR)])
+    sys.stdout.write(f"{path}: {len(entries)} kernels, {path.stat().st_size / 1e6:.1f} MB\n")
 
 
 def tell(made: Made) -> None:

@@ -19,7 +19,7 @@ from . import packaged
 from .calling import Native, caller, types_of
 from .compile import has_compiler
 from .files import alone, whole
-from .objects import HOST, object_of
+from .objects import HOST, Entry, object_of
 from .stamp import name_of, stamp_of
 
 __all__ = ["build", "folder", "for_the_package", "kept", "load", "load_own", "made", "notices"]
@@ -32,7 +32,7 @@ _SEAL = hashlib.sha256().digest_size
 _loaded: dict[tuple[Callable[..., None], str], Native] = {}  # what was made here, by kernel and types
 _packaged: dict[tuple[Callable[..., None], str], Native] = {}  # what the package has
 _building = threading.Lock()  # threads of a process compile one after the other in any case
-_for_the_package: list[dict[str, bytes]] = []  # what is made for it, by name, while none is made for this processor
+_for_the_package: list[dict[str, Entry]] = []  # what is asked of it, by name, while none is made for this processor
 
 
 def load(function: Callable[..., None], arguments: tuple[Any, ...]) -> Native | None:
@@ -67,7 +67,8 @@ def build(function: Callable[..., None], arguments: tuple[Any, ...]) -> Native:
     kind = function, types_of(arguments)
     if _for_the_package:
         name = packaged.name_of(*kind)
-        content = _for_the_package[-1][name] = object_of(function, arguments, name, packaged.PROCESSOR)
+        _for_the_package[-1][name] = function, arguments
+        content = object_of(function, arguments, name, packaged.PROCESSOR)
     else:
         name = _name_of(*kind)
         content = made(*kind, lambda: object_of(function, arguments, name, HOST))
@@ -97,8 +98,8 @@ def made(function: Callable[..., Any], types: str, compile: Callable[[], bytes])
 
 
 @contextmanager
-def for_the_package() -> Iterator[dict[str, bytes]]:
-    """Make all machine code for the processor of the package, and collect it by the names that it has there."""
+def for_the_package() -> Iterator[dict[str, Entry]]:
+    """Make all machine code for the processor of the package, and collect entries by the names that they have there."""
     _for_the_package.append({})
     try:
         yield _for_the_package[-1]

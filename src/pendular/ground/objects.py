@@ -1,28 +1,42 @@
 """Object files of kernels, by Numba: code is put together first and optimised once, and nothing of it is loaded."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cache, partial
 from typing import Any
 
 from .compile import fastmath_of, rebound
 
-__all__ = ["HOST", "context_of_files", "object_of", "unlinked"]
+__all__ = ["HOST", "Entry", "context_of_files", "object_of", "object_of_all", "unlinked"]
 
 HOST = "host"  # this processor, for LLVM
+
+Entry = tuple[Callable[..., None], tuple[Any, ...]]  # a kernel, and arguments of the types that it is compiled for
 
 
 def object_of(function: Callable[..., None], arguments: tuple[Any, ...], symbol: str, processor: str) -> bytes:
     """Object file of a kernel for arguments of these types, in which it alone can be found, by the name of a symbol."""
+    return object_of_all({symbol: (function, arguments)}, processor)
+
+
+def object_of_all(entries: Mapping[str, Entry], processor: str) -> bytes:
+    """The same of many kernels by their symbols; what they share is in it once."""
     from numba import typeof
     from numba.core.compiler_lock import global_compiler_lock
 
-    dispatcher = unlinked(function, processor)
-    signature = tuple(typeof(argument) for argument in arguments)
-    dispatcher.compile(signature)
-    result = dispatcher.overloads[signature]
+    library = context_of_files(processor).codegen().create_library("entries")
+    names = {}
     with global_compiler_lock:
-        result.library.hide_all_but({result.fndesc.llvm_func_name: symbol})
-        code: bytes = result.library.emit_native_object()
+        for symbol, (function, arguments) in entries.items():
+            dispatcher = unlinked(function, processor)
+            signature = tuple(typeof(argument) for argument in arguments)
+            dispatcher.compile(signature)
+            result = dispatcher.overloads[signature]
+            library.add_whole(result.library)
+            names[result.fndesc.llvm_func_name] = symbol
+        assert len(names) == len(entries)
+        library.finalize()
+        library.hide_all_but(names)
+        code: bytes = library.emit_native_object()
     return code
 
 
@@ -62,24 +76,23 @@ def context_of_files(processor: str = HOST) -> Any:
     from numba.core.registry import cpu_target
 
     class Library(AOTCodeLibrary):
-        def __init__(self, *given: Any) -> None:
-            super().__init__(*given)
-            self._names_now: dict[str, str] = {}  # of functions that were named before
-
         def _optimize_functions(self, module: Any) -> None:
             module.data_layout = self._codegen._data_layout
 
         def _optimize_final_module(self) -> None:
             pass
 
+        def add_whole(self, library: Any) -> None:
+            """Add a library with the function that it is for; linked to one, what nothing calls is left behind."""
+            library._ensure_finalized()
+            self.add_llvm_module(library._final_module.clone())
+
         def hide_all_but(self, names: dict[str, str]) -> None:
-            """Hide all but a few functions, which get another name; they may have had one before."""
-            wanted = {self._names_now.get(name, name): new for name, new in names.items()}
-            self._names_now |= names
+            """Hide all but a few functions, which get another name."""
             module = self._final_module
             for value in (*module.functions, *module.global_variables):
-                if value.name in wanted:
-                    value.name = wanted[value.name]
+                if value.name in names:
+                    value.name, value.linkage = names[value.name], "external"
                 elif not value.is_declaration:
                     value.linkage = "internal"
 
