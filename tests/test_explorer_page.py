@@ -123,6 +123,27 @@ class Seen:
         """Choose one of several by its name."""
         self.page.get_by_role("radio", name=name, exact=True).click(force=True)
 
+    def expect_open_to_all(self) -> None:
+        """Contrast of all text, in pictures too, and what axe-core looks for."""
+        assert self.page.evaluate(CONTRAST) == []
+        found = Axe().run(self.page).response
+        assert len(found["passes"]) > 30
+        assert [(one["id"], one["impact"]) for one in found["violations"]] == []
+
+    def reached_by_keyboard(self) -> list[tuple[str, bool]]:
+        """Names of what is reached, one Tab after the other, and whether it shows that it is."""
+        reached = []
+        for _ in range(60):
+            self.page.keyboard.press("Tab")
+            reached.append(tuple(self.page.evaluate(FOCUSED)))
+        print([name for name, _ in reached])
+        return reached
+
+    def shrink_to(self, width: int, height: int) -> None:
+        """Give the window a size, until nothing is wider."""
+        self.page.set_viewport_size({"width": width, "height": height})
+        self.page.wait_for_function("document.documentElement.scrollWidth <= innerWidth")
+
     def centre(self, selector: str) -> tuple[float, float]:
         """Middle of what is seen of an element."""
         box = self.page.locator(selector).bounding_box()
@@ -693,6 +714,13 @@ def test_the_command_serves_it():
 
 # -- For everyone ----------------------------------------------------------------------------------------------------
 
+FOCUSED = """() => {
+  const e = document.activeElement;
+  const ring = getComputedStyle(e).outlineStyle !== "none" || e.matches(".choice input");
+  const name = e.getAttribute("aria-label") || e.labels?.[0]?.innerText.trim() || e.innerText?.trim();
+  return [name, ring];
+}"""
+
 CONTRAST = """() => {
   const channel = (c) => (c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
   const light = (rgb) => [0.2126, 0.7152, 0.0722].reduce((sum, w, i) => sum + w * channel(rgb[i] / 255), 0);
@@ -726,27 +754,13 @@ def test_nobody_is_shut_out(browser, url, scheme):
     seen.page.wait_for_selector("#plan:not(.old)")
     seen.write("Radius 1", "50")  # a message of what is wrong has contrast too
     playwright.expect(seen.page.locator("#wrong-radius")).not_to_be_empty()
-    assert seen.page.evaluate(CONTRAST) == []  # of text in pictures too
-    found = Axe().run(seen.page).response
-    assert len(found["passes"]) > 30
-    assert [(one["id"], one["impact"]) for one in found["violations"]] == []
+    seen.expect_open_to_all()
     seen.page.close()
 
 
 def test_all_is_reached_by_keyboard(desk):
-    reached = []
-    for _ in range(60):
-        desk.page.keyboard.press("Tab")
-        reached.append(
-            desk.page.evaluate(
-                """() => { const e = document.activeElement;
-                const ring = getComputedStyle(e).outlineStyle !== "none" || e.matches(".choice input");
-                const name = e.getAttribute("aria-label") || e.labels?.[0]?.innerText.trim() || e.innerText?.trim();
-                return [name, ring]; }"""
-            )
-        )
+    reached = desk.reached_by_keyboard()
     names = [name for name, _ in reached]
-    print(names)
     for name in (
         "suction",
         "Suction",
@@ -765,8 +779,7 @@ def test_all_is_reached_by_keyboard(desk):
 def test_it_fits_every_window(blank, view):
     blank.show(view)
     for width, height in SIZES:
-        blank.page.set_viewport_size({"width": width, "height": height})
-        blank.page.wait_for_function("document.documentElement.scrollWidth <= innerWidth")
+        blank.shrink_to(width, height)
         assert blank.page.evaluate("innerWidth") == width
         seen = blank.page.locator("#picture").bounding_box()
         assert seen["x"] >= 0

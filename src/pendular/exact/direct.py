@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..ground.compile import kernel
-from .algebra import Four, largest, solve4
+from .algebra import Four, largest
 from .arc import (
     HALF_A_TURN,
     Arc,
@@ -29,7 +29,7 @@ from .clearance import extrema_between, is_beyond_doubt
 from .equations import SUCTION, VOLUME, Held, System, curvature_rates, volume_row
 from .guess import start_at_suction, start_at_volume
 from .meridian import Row, extreme_phases
-from .newton import LONGEST_STEP, NO_STEP, held_target
+from .newton import LONGEST_STEP, NO_STEP, held_target, left_after, step_to
 from .stability import ladder_of
 from .state import HALF_LENGTH, Figure, State, miss_of, sideways_of, state_of
 from .suction import beyond_fold
@@ -117,24 +117,14 @@ def newton_on(arc: Arc, separation: float, held: Held, most: int, enough: float,
         system = system_at_arc(arc, held, fine)
         if held.control == VOLUME:
             row = volume_row(system, held)
-            change, _det = solve4(
-                system.contact1.rates,
-                system.contact2.rates,
-                system.separation.rates,
-                row.rates,
-                -system.contact1.value,
-                -system.contact2.value,
-                separation - system.separation.value,
-                held_target(row, held),
-            )
+            change = step_to(separation, system, row.rates, held_target(row, held))
         else:
             change = _change_at_suction(system, arc.eta, separation)
         size = largest(change)
         if not size < 1e6:
             break
         arc = kept(arc_after(arc, change, LONGEST_STEP / max(size, LONGEST_STEP)), held)
-        # what is left after a step is its square, by the factor that made it the square of the one before
-        if size < enough or (fine and size * (size / before) ** 2 < left):
+        if size < enough or (fine and left_after(size, before) < left):
             is_met = is_fit(arc)
             break
         if not is_fit(arc):

@@ -4,7 +4,7 @@ import math
 
 from ..ground.compile import kernel
 from .algebra import Four, largest, moved, solve4
-from .equations import VOLUME, Held, held_row, system_at
+from .equations import VOLUME, Held, System, held_row, system_at
 from .meridian import Row
 
 LONGEST_STEP = 1.0
@@ -13,15 +13,38 @@ _MOST_TURN = 9.0  # |ω| beyond which an arc winds about itself
 _COARSE_STEP = 1e-4  # from which on the finer nodes are used
 NO_STEP = 1e-20  # a guess may be the bridge itself
 _LEFT = 1e-16  # largest change that would follow
-_NEARLY_HELD = 0.3  # share of the volume above which its logarithm is what is corrected
+NEARLY_HELD = 0.3  # share of the volume above which its logarithm is what is corrected
 
 
 @kernel
 def held_target(row: Row, held: Held) -> float:
     """Right side of the held row: V/V0 in logarithm, as it may be far off at first."""
-    if held.control == VOLUME and row.value > _NEARLY_HELD - 1.0:
+    if held.control == VOLUME and row.value > NEARLY_HELD - 1.0:
         return -(1.0 + row.value) * math.log1p(row.value)
     return -row.value
+
+
+@kernel
+def step_to(separation: float, system: System, rates: Four, target: float) -> Four:
+    """Newton's step to the bridge at a separation, by the rates of what is held."""
+    step, _det = solve4(
+        system.contact1.rates,
+        system.contact2.rates,
+        system.separation.rates,
+        rates,
+        -system.contact1.value,
+        -system.contact2.value,
+        separation - system.separation.value,
+        target,
+    )
+    return step
+
+
+@kernel
+def left_after(size: float, before: float) -> float:
+    """What is left after a step: its square, by the factor that made it the square of the one before."""
+    shrunk = size / before
+    return size * shrunk * shrunk
 
 
 @kernel
@@ -31,24 +54,14 @@ def newton_to(z: Four, separation: float, held: Held, most: int) -> tuple[Four, 
     for _ in range(most):
         system = system_at(z, held, fine, with_volume)
         row = held_row(z, system, held)
-        change, _det = solve4(
-            system.contact1.rates,
-            system.contact2.rates,
-            system.separation.rates,
-            row.rates,
-            -system.contact1.value,
-            -system.contact2.value,
-            separation - system.separation.value,
-            held_target(row, held),
-        )
+        change = step_to(separation, system, row.rates, held_target(row, held))
         size = largest(change)
         if not size < 1e6:
             break
         z = moved(z, LONGEST_STEP / max(size, LONGEST_STEP), change)
         if not abs(z.turn) < _MOST_TURN:
             break
-        # what is left after a step is its square, by the factor that made it the square of the one before
-        if fine and size * (size / before) ** 2 < _LEFT:
+        if fine and left_after(size, before) < _LEFT:
             return z, True
         fine, before = size < _COARSE_STEP, max(size, NO_STEP)
     return z, False

@@ -20,7 +20,7 @@ from .algebra import Four, dot, largest_of, scaled
 from .arc import ROOM_FOR_24, W8, W24, X8, X24, Arc, Nodes, arc_after, chosen, force_on, has_room, ratio_of
 from .clearance import extrema_between, is_beyond_doubt
 from .equations import Held
-from .newton import COARSE_STEPS, LONGEST_STEP, MOST_STEPS, NO_STEP
+from .newton import COARSE_STEPS, LONGEST_STEP, MOST_STEPS, NO_STEP, left_after
 from .solids import Solid, contact_with
 from .stability import directions_at_suction
 
@@ -204,10 +204,8 @@ def met_at_suction(arc: Arc, separation: float, held: Held, left: float, is_near
         size = max(largest_of(change), NO_STEP)
         moved = arc_after(arc, change, LONGEST_STEP / max(size, LONGEST_STEP))
         arc = chosen(is_met, arc, Arc(moved.radius, moved.slope, moved.half_width, held.value * moved.half_width))
-        # what is left after a step is its square, by the factor that made it the square of the one before
-        shrunk = size / before
         if is_fine:
-            is_met = is_met | (size * shrunk * shrunk < left)
+            is_met = is_met | (left_after(size, before) < left)
             if every(is_met):
                 break
         before = size

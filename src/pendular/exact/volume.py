@@ -8,14 +8,12 @@ from typing import NamedTuple
 
 from ..ground.compile import kernel
 from ..ground.lanes import choose, every
-from .algebra import largest_of, solve4
+from .algebra import largest_of
 from .arc import ROOM_FOR_32, W8, W32, X8, X32, Arc, arc_after, chosen, force_on, has_room, ratio_of, sums_at, system_on
 from .clearance import extrema_between, is_beyond_doubt
 from .equations import Held, System, volume_row
-from .newton import COARSE_STEPS, LONGEST_STEP, MOST_STEPS, NO_STEP
+from .newton import COARSE_STEPS, LONGEST_STEP, MOST_STEPS, NEARLY_HELD, NO_STEP, left_after, step_to
 from .stability import directions_of
-
-_NEARLY_HELD = 0.3  # share of the volume above which its logarithm is what is corrected
 
 
 class Met(NamedTuple):
@@ -32,7 +30,7 @@ def _target(excess: float) -> float:
     s = excess / choose(excess > -1.0, 2.0 + excess, 1.0)
     square = s * s
     logarithm = 2.0 * s * (1.0 + square * (1.0 / 3.0 + square * (0.2 + square / 7.0)))
-    return -choose(excess > _NEARLY_HELD - 1.0, (1.0 + excess) * logarithm, excess)
+    return -choose(excess > NEARLY_HELD - 1.0, (1.0 + excess) * logarithm, excess)
 
 
 @kernel
@@ -44,22 +42,11 @@ def met_at_volume(arc: Arc, separation: float, held: Held, left: float, is_near:
         x, weight = (X32, W32) if is_fine else (X8, W8)
         system = system_on(arc, held, sums_at(arc, x, weight, True), True)
         row = volume_row(system, held)
-        change, _det = solve4(
-            system.contact1.rates,
-            system.contact2.rates,
-            system.separation.rates,
-            row.rates,
-            -system.contact1.value,
-            -system.contact2.value,
-            separation - system.separation.value,
-            _target(row.value),
-        )
+        change = step_to(separation, system, row.rates, _target(row.value))
         size = max(largest_of(change), NO_STEP)
         arc = chosen(is_met, arc, arc_after(arc, change, LONGEST_STEP / max(size, LONGEST_STEP)))
-        # what is left after a step is its square, by the factor that made it the square of the one before
-        shrunk = size / before
         if is_fine:
-            is_met = is_met | (size * shrunk * shrunk < left)
+            is_met = is_met | (left_after(size, before) < left)
             if every(is_met):
                 break
         before = size

@@ -153,6 +153,13 @@ def _reach(question: Question, separation: float) -> tuple[float, float]:
 
 
 @kernel
+def _on_number(question: Question, number: int) -> On:
+    """One of all choices of a piece of each solid."""
+    choices = pieces_of(question.second)
+    return On(number // choices, number % choices)
+
+
+@kernel
 def _is_searched(question: Question, on: On) -> bool:
     """Whether bridges are looked for on two pieces; those on a side beside an edge are followed to."""
     first, second = piece_of(question.first, on.first).surface, piece_of(question.second, on.second).surface
@@ -193,12 +200,11 @@ def stable_at(question: Question, separation: float, most: int, room: Room) -> i
     least, largest = _reach(question, separation)
     count = 0
     for number in range(pieces_of(question.first) * pieces_of(question.second)):
-        on = On(number // pieces_of(question.second), number % pieces_of(question.second))
+        on = _on_number(question, number)
         if not _is_searched(question, on):
             continue
         held = held_on(question, on)
-        first, second = piece_of(question.first, on.first), piece_of(question.second, on.second)
-        scan = scan_of(first, second, least, largest)
+        scan = scan_of(piece_of(question.first, on.first), piece_of(question.second, on.second), least, largest)
         low, at_low = 0.0, math.nan
         for i in range(scan.number):
             high = free_at(scan, i)
@@ -219,12 +225,11 @@ def led_at(question: Question, separation: float, most: int, room: Room) -> int:
     least, largest = _reach(question, separation)
     count = 0
     for number in range(pieces_of(question.first) * pieces_of(question.second)):
-        on = On(number // pieces_of(question.second), number % pieces_of(question.second))
+        on = _on_number(question, number)
         if not _is_searched(question, on):
             continue
         held = held_on(question, on)
-        first, second = piece_of(question.first, on.first), piece_of(question.second, on.second)
-        scan = scan_of(first, second, least, largest)
+        scan = scan_of(piece_of(question.first, on.first), piece_of(question.second, on.second), least, largest)
         nearest = _nearest_others(held, separation, scan, room.starts)
         for i in range(nearest):
             own = held_between(held.first, held.second, held.control, float(room.starts[i, 2]))  # type: ignore
