@@ -1,9 +1,8 @@
 """Tests that need more than the light environment say so, and name the command that brings the rest."""
 
+import subprocess
 import sys
-from contextlib import AbstractContextManager, nullcontext
 from importlib.util import find_spec
-from itertools import islice
 from pathlib import Path
 
 import pytest
@@ -64,17 +63,24 @@ def pytest_configure(config: pytest.Config) -> None:
     workers = config.getoption("numprocesses", 0)
     if not workers or config.option.collectonly or why_not("numba"):
         return
-    from pendular.front.ahead import compile_ahead
-    from pendular.ground import native
+    subprocess.run([sys.executable, "-c", COMPILE], check=True)  # in a process that gives its 3 GB back
 
-    def notice() -> AbstractContextManager[None]:
-        print("compiling for all workers and all later runs", file=sys.stderr)  # noqa: T201 - no reporter is there yet
-        return nullcontext()
 
-    native.notices.append(notice)
-    for _ in islice(compile_ahead(), 5):  # the others are small
-        pass
-    native.notices.remove(notice)
+COMPILE = """
+import sys
+from contextlib import nullcontext
+from itertools import islice
+from pendular.front.ahead import compile_ahead
+from pendular.ground import native
+
+def notice():
+    print("compiling for all workers and all later runs", file=sys.stderr)
+    return nullcontext()
+
+native.notices.append(notice)
+for _ in islice(compile_ahead(), 5):  # the others are small
+    pass
+"""
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -184,6 +184,35 @@ print(json.dumps([float(bridge.force.sum())]))
 
 
 @COMPILER
+@pytest.mark.skipif(sys.platform == "win32", reason="no such mappings on Windows")
+def test_memory_in_pieces_is_no_error(by_machine):
+    """A process with room for numbers far from where it has room for code: 4 kB here and there, then none for 3 GB."""
+    script = """
+import json
+from mmap import MAP_ANONYMOUS, MAP_PRIVATE, PROT_READ, PROT_WRITE, mmap
+import pendular as pl
+from pendular.ground import rows
+rows._LOADING = 0.0
+kinds = (PROT_READ, PROT_READ | PROT_WRITE)  # side by side they stay apart
+pieces = [mmap(-1, 16384, MAP_PRIVATE | MAP_ANONYMOUS, prot=kinds[i % 2]) for i in range(400)]
+large = [mmap(-1, 1 << 30, MAP_PRIVATE | MAP_ANONYMOUS, prot=PROT_READ) for _ in range(3)]
+for piece in pieces[::2]:
+    piece.close()
+pair, liquid = pl.Pair(1.0, 0.3), pl.Liquid(surface_tension=1.0)
+answers = [
+    pl.bridge(pair, 0.01, volume=1e-3, liquid=liquid).force,
+    pl.rupture(pair, volume=1e-3, liquid=liquid).separation,
+    pl.curve(pair, volume=1e-3, liquid=liquid, points=21).force[3],
+    pl.bridge(pair, 0.01, suction=1.0, liquid=liquid, branch="unstable").force,
+]
+print(json.dumps([float(x) for x in answers]))
+"""
+    found, (pair, liquid) = answers_of(script), (pl.Pair(1.0, 0.3), pl.Liquid(surface_tension=1.0))
+    assert found[0] == pl.bridge(pair, 0.01, volume=1e-3, liquid=liquid).force
+    assert found[1] == pl.rupture(pair, volume=1e-3, liquid=liquid).separation
+
+
+@COMPILER
 def test_who_keeps_asking_is_answered_by_machine_code(monkeypatch):
     chosen = []
     monkeypatch.setattr(native, "load", lambda *_: chosen.append("load"))

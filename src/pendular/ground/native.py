@@ -160,11 +160,12 @@ def _processor() -> str:
 
 # -- linking ---------------------------------------------------------------------------------------------------------
 
-_engines: list[Any] = []  # they own the code
+_linkages: list[Any] = []  # they own the code
 
 
 @cache
-def _engine() -> Any:
+def _linker() -> Any:
+    """A linker that puts each file in one place: code finds what else is in its file no further than 2 GB away."""
     import llvmlite.binding as llvm
 
     with suppress(RuntimeError):  # newer versions do that by themselves
@@ -172,20 +173,17 @@ def _engine() -> Any:
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
     machine = llvm.Target.from_default_triple().create_target_machine(jit=True)
-    return llvm.create_mcjit_compiler(llvm.parse_assembly(""), machine)
+    by_jit_link = sys.platform != "win32"  # experimental for its files
+    return llvm.create_lljit_compiler(machine, use_jit_link=by_jit_link, suppress_errors=True)  # they are raised
 
 
 def _linked(name: str, content: bytes) -> Native:
     """Load an object file, and find the code of a name in it."""
     import llvmlite.binding as llvm
 
-    engine = _engine()
-    engine.add_object_file(llvm.ObjectFileRef.from_data(content))
-    engine.finalize_object()
-    address = engine.get_function_address(name)
-    if address == 0:
-        raise RuntimeError(f"{name} is not in its file")
-    return caller(address, name)
+    library = llvm.JITLibraryBuilder().add_object_img(content).add_current_process().export_symbol(name)
+    _linkages.append(library.link(_linker(), f"{name}.{len(_linkages)}"))
+    return caller(_linkages[-1][name], name)
 
 
 @contextmanager
