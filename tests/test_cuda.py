@@ -48,6 +48,14 @@ def run(task, folder, *more, **environment):
     )
 
 
+def run_on_device(task, folder, *more):
+    """The same on a GPU, if there is one."""
+    done = run(task, folder, *more)
+    if "CUDA_ERROR" in done.stderr or "CudaSupportError" in done.stderr:
+        pytest.skip("no GPU is here")
+    return done
+
+
 def contacts(table, random):
     """Gaps in an overlap, up to rupture and beyond; then a plane, NaN in each place, and controls out of range."""
     radius1 = 10.0 ** random.uniform(-6, -4, COUNT)
@@ -179,7 +187,7 @@ def grains(table, random):
     return pairs, positions, positions + moves, other, radii, np.array(control), np.array(3e-6)
 
 
-@pytest.mark.parametrize("kind", ["alone", "shared"])
+@pytest.mark.parametrize("kind", ["alone", "shared", "device"])
 def test_a_step_is_that_of_the_processor(kind, folder, tmp_path):
     print(f"seed {SEED}")
     random = np.random.default_rng(SEED)
@@ -188,7 +196,7 @@ def test_a_step_is_that_of_the_processor(kind, folder, tmp_path):
         shutil.copy(folder / f"{name}.npz", tmp_path)
         asked[name] = grains(pl.load_table(folder / f"{name}.npz"), random)
         np.savez(tmp_path / f"{name}.grains.npz", *asked[name])
-    done = run("step", tmp_path, kind, **SIMULATOR)
+    done = run_on_device("step", tmp_path, kind) if kind == "device" else run("step", tmp_path, kind, **SIMULATOR)
     assert done.returncode == 0, done.stderr
     for name, (pairs, positions, moved, _, radii, control, reach) in asked.items():
         table, found = pl.load_table(folder / f"{name}.npz"), np.load(tmp_path / f"{name}.step.{kind}.npz")
@@ -222,13 +230,14 @@ def solver_contacts(held, random):
     return separation, control, radius1, radius2, angle1, angle2
 
 
-def test_the_solver_is_that_of_the_processor(tmp_path):
+@pytest.mark.parametrize("kind", ["simulated", "device"])
+def test_the_solver_is_that_of_the_processor(kind, tmp_path):
     print(f"seed {SEED}")
     random = np.random.default_rng(SEED)
     asked = {held: solver_contacts(held, random) for held in ("suction", "volume")}
     for held, arguments in asked.items():
         np.savez(tmp_path / f"solver.{held}.npz", *arguments)
-    done = run("solve", tmp_path, **SIMULATOR)
+    done = run_on_device("solve", tmp_path) if kind == "device" else run("solve", tmp_path, **SIMULATOR)
     assert done.returncode == 0, done.stderr
     for held, arguments in asked.items():
         found = np.load(tmp_path / f"solver.{held}.npy")
@@ -252,9 +261,7 @@ def test_the_solver_is_that_of_the_processor(tmp_path):
 def test_a_device_gives_what_the_processor_does(folder, tmp_path):
     there = tmp_path / "there"
     shutil.copytree(folder, there)
-    done = run("simulate", there)
-    if "CUDA_ERROR" in done.stderr or "CudaSupportError" in done.stderr:
-        pytest.skip("no GPU is here")
+    done = run_on_device("simulate", there)
     assert done.returncode == 0, done.stderr
     for name in TABLES:
         grid = pl.load_table(folder / f"{name}.npz").grid
