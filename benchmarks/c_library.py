@@ -1,6 +1,7 @@
-"""How long a bridge takes in the C library: ``python -m benchmarks.c_library``.
+"""How long a bridge takes in the C library: ``python -m benchmarks.c_library`` writes it into docs/speed.md.
 
-A program in C asks one bridge after another, as a particle code does, and counts the time of its own process.
+A program in C asks one bridge after another, as a particle code does, then all of them in rows, and counts the time of
+its own process. Its rival is Willett's law in C, the program's own.
 """
 
 import subprocess
@@ -8,12 +9,16 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+from tools.law_in_c import source
 
-from pendular.codes.library.write import SHARED, STATIC, write
+from benchmarks.sections import machine, put
+from pendular.codes.library.write import STATIC, write
+from pendular.laws import laws
 
 SEED = 19
 PAIRS, REPEATS = 2000, 15
-QUESTIONS = ("bridge", "bridge_near", "rupture")
+QUESTIONS = ("rupture", "bridge", "bridge near", "ruptures, in rows", "bridges, in rows", "bridges near, in rows")
+RIVALS = {"suction": "zhao2020", "volume": "willett2000"}
 
 _PROGRAM = """
 #include <stdio.h>
@@ -21,37 +26,74 @@ _PROGRAM = """
 #include <time.h>
 #include "pendular.h"
 
-enum { pairs = %(pairs)d, repeats = %(repeats)d };
+enum { pairs = %(pairs)d, repeats = %(repeats)d, questions = %(questions)d };
 
 static pendular_pair pair[pairs];
 static pendular_state state[pairs], end[pairs];
-static double held[pairs], share[pairs];
+static double held[pairs], share[pairs], gap[pairs], further[pairs];
+static double given[pairs][5];
+static int statuses[pairs];
+static double sum;
+
+static void ask(int question, int control)
+{
+    int i;
+    if (question == 3)
+        pendular_ruptures(control, pairs, held, pair, end, statuses);
+    else if (question == 4)
+        pendular_bridges(control, pairs, gap, held, pair, state, statuses);
+    else if (question == 5)
+        pendular_bridges_near(control, pairs, further, held, pair, state, statuses);
+    else
+        for (i = 0; i < pairs; ++i)
+            if (question == 0)
+                pendular_rupture(control, held[i], &pair[i], &end[i]);
+            else if (question == 1)
+                pendular_bridge(control, gap[i], held[i], &pair[i], &state[i]);
+            else if (question == 2)
+                pendular_bridge_near(control, further[i], held[i], &pair[i], &state[i]);
+            else
+                sum += %(rival)s(given[i][0], given[i][1], given[i][2], given[i][2], given[i][3], given[i][4]);
+}
 
 int main(int count, char **words)
 {
     const int control = atoi(words[1]);
-    double least[3] = { 1.0, 1.0, 1.0 };
-    int i, k, found = 0;
+    double least[questions + 1];
+    int i, k;
     (void)count;
     for (i = 0; i < pairs; ++i)
         if (scanf("%%lf %%lf %%lf %%lf %%lf %%lf %%lf", &pair[i].radius1, &pair[i].radius2, &pair[i].contact_angle1,
                 &pair[i].contact_angle2, &pair[i].surface_tension, &held[i], &share[i]) != 7)
             return 1;
-    for (k = 0; k < 3 * repeats; ++k) {
-        clock_t start = clock();
-        for (i = 0; i < pairs; ++i) {
-            if (k %% 3 == 0)
-                found += pendular_rupture(control, held[i], &pair[i], &end[i]) == PENDULAR_FOUND;
-            else if (k %% 3 == 1)
-                pendular_bridge(control, share[i] * end[i].separation, held[i], &pair[i], &state[i]);
-            else
-                pendular_bridge_near(control, (share[i] + 1e-3) * end[i].separation, held[i], &pair[i], &state[i]);
-        }
-        const double took = (double)(clock() - start) / CLOCKS_PER_SEC / pairs;
-        least[k %% 3] = took < least[k %% 3] ? took : least[k %% 3];
+    ask(0, control);
+    for (i = 0; i < pairs; ++i) {
+        const pendular_pair p = pair[i];
+        const double mean = 2.0 / (1.0 / p.radius1 + 1.0 / p.radius2);
+        if (!(end[i].separation > 0.0))
+            return 2;
+        gap[i] = share[i] * end[i].separation;
+        further[i] = (share[i] + 1e-3) * end[i].separation;
+        given[i][0] = gap[i] / mean;
+        given[i][1] = control ? held[i] / (mean * mean * mean) : held[i] * mean / p.surface_tension;
+        given[i][2] = p.contact_angle1;
+        given[i][3] = mean / p.radius1;
+        given[i][4] = mean / p.radius2;
     }
-    printf("%%d %%.3f %%.3f %%.3f\\n", found / repeats, 1e6 * least[1], 1e6 * least[2], 1e6 * least[0]);
-    return 0;
+    for (k = 0; k <= questions; ++k)
+        least[k] = 1.0;
+    for (k = 0; k < (questions + 1) * repeats; ++k) {
+        const clock_t start = clock();
+        const int question = k %% (questions + 1);
+        double took;
+        for (i = 0; i < (question == questions ? 100 : 1); ++i)
+            ask(question, control);
+        took = (double)(clock() - start) / CLOCKS_PER_SEC / pairs / i;
+        least[question] = took < least[question] ? took : least[question];
+    }
+    for (k = 0; k <= questions; ++k)
+        printf("%%.2f\\n", 1e9 * least[k]);
+    return sum == sum ? 0 : 3;
 }
 """
 
@@ -68,23 +110,40 @@ def questions(control: str) -> str:
     return "\n".join(" ".join(map(repr, map(float, row))) for row in zip(*columns, strict=True))
 
 
-def main() -> None:
-    """Print the microseconds of a call under both controls."""
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        written = {path.name: path.stat().st_size for path in write(folder)}
-        (folder / "main.c").write_text(_PROGRAM % {"pairs": PAIRS, "repeats": REPEATS}, encoding="utf-8")
-        command = ["gcc", "-O2", "-o", "main", "main.c", STATIC, "-lm"]
-        subprocess.run(command, cwd=folder, check=True)
-        sizes = ", ".join(f"{file} {written[file] / 1e3:.0f} kB" for file in (STATIC, SHARED) if file in written)
-        print(f"{PAIRS} random pairs, seed {SEED}, one thread; microseconds a call, the least of {REPEATS}; {sizes}")
-        for code, control in enumerate(("suction", "volume")):
-            program = [folder / "main", str(code)]
-            told = subprocess.run(program, input=questions(control), check=True, capture_output=True, text=True)
-            found, *times = told.stdout.split()
-            each = "   ".join(f"{question} {time}" for question, time in zip(QUESTIONS, times, strict=True))
-            print(f"{control:8s} {found} of {PAIRS} break   {each}")
+def measured(control: int, name: str) -> list[float]:
+    """Nanoseconds a call of each question, and of the rival of a control."""
+    rival = laws[RIVALS[name]]
+    program = {"pairs": PAIRS, "repeats": REPEATS, "questions": len(QUESTIONS), "rival": f"{rival.name}_force_star"}
+    with tempfile.TemporaryDirectory() as place:
+        folder = Path(place)
+        write(folder)
+        (folder / "main.c").write_text(source(rival) + _PROGRAM % program, encoding="utf-8")
+        subprocess.run(["gcc", "-O2", "-o", "main", "main.c", STATIC, "-lm"], cwd=folder, check=True)
+        told = subprocess.run(
+            [folder / "main", str(control)], input=questions(name), check=True, capture_output=True, text=True
+        )
+    return [float(line) for line in told.stdout.split()]
+
+
+def measure() -> str:
+    """The page's section."""
+    suction, volume = (measured(control, name) for control, name in enumerate(RIVALS))
+    told = [
+        f"| {question} | {one:.0f} | {one / suction[-1]:.0f} | {other:.0f} | {other / volume[-1]:.0f} |"
+        for question, one, other in zip(QUESTIONS, suction, volume, strict=False)
+    ]
+    return f"""## The C library
+
+Written by `python -m benchmarks.c_library` on: {machine()}. {PAIRS} random
+pairs of grains, up to three times as large as each other, on one thread: ns a call or a row, the least of {REPEATS}
+rounds, seed {SEED}. The rivals are compiled in C in the same run: the paper's closed form under suction
+({suction[-1]:.0f} ns), Willett's law at a volume ({volume[-1]:.0f} ns).
+
+| | suction, ns | times the closed form | volume, ns | times the closed form |
+|---|---:|---:|---:|---:|
+{chr(10).join(told)}
+"""
 
 
 if __name__ == "__main__":
-    main()
+    put("benchmarks.c_library", measure())

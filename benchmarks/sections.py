@@ -1,7 +1,11 @@
 """The page of speeds, of which each benchmark writes a section of its own."""
 
+import os
+import platform
 import sys
 from pathlib import Path
+
+import numba
 
 PAGE = Path(__file__).parent.parent / "docs" / "speed.md"
 _BEGIN, _END = "<!-- written by python -m {name} -->", "<!-- end of {name} -->"
@@ -19,3 +23,15 @@ def put(name: str, text: str) -> None:
     else:
         page = f"{page.rstrip()}\n\n{section}"
     PAGE.write_text(page, encoding="utf-8")
+
+
+def machine() -> str:
+    """The machine in words."""
+    name = platform.processor() or platform.machine()
+    try:
+        with open("/proc/cpuinfo", encoding="ascii") as lines:
+            name = next(line.split(":", 1)[1].strip() for line in lines if line.startswith("model name"))
+    except (OSError, StopIteration):
+        pass
+    load = f", load {os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else ""
+    return f"{name}, {os.cpu_count()} cores{load}, Numba {numba.__version__}"

@@ -7,8 +7,6 @@ straight way of the solver leaves to the rest of it are counted.
 """
 
 import math
-import os
-import platform
 import statistics
 import time
 import tracemalloc
@@ -21,7 +19,7 @@ from numpy.typing import NDArray
 
 import pendular as pl
 from benchmarks.contacts import FIT, paper_range, willett_range
-from benchmarks.sections import put
+from benchmarks.sections import machine, put
 from pendular.exact import batch
 from pendular.exact.equations import SUCTION, VOLUME
 from pendular.exact.state import State
@@ -179,18 +177,6 @@ def threads_note() -> list[str]:
         f"`pl.bridge` on {sample.held.size:.0e} rows, by the clock on the wall: {', '.join(told)} threads.",
         f"It takes {most / own:.2f} times the memory of the fields that it returns.",
     ]
-
-
-def machine() -> str:
-    """The machine in words."""
-    name = platform.processor() or platform.machine()
-    try:
-        with open("/proc/cpuinfo", encoding="ascii") as lines:
-            name = next(line.split(":", 1)[1].strip() for line in lines if line.startswith("model name"))
-    except (OSError, StopIteration):
-        pass
-    load = f", load {os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else ""
-    return f"{name}, {os.cpu_count()} cores{load}, Numba {numba.__version__}"
 
 
 GOALS = {

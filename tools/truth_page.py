@@ -181,7 +181,7 @@ SUBJECTS: dict[str, tuple[Bound, ...]] = {
     ),
     "The solver elsewhere": (
         Bound(
-            "C library: ruptures equal to Python to the last bit",
+            "C library: rows equal to Python to the last bit",
             "",
             "rows of random questions",
             "test_c_library.py::test_it_is_equal_to_python",

@@ -80,7 +80,6 @@ __all__ = [
     "answer",
     "answer_abreast",
     "answer_filling",
-    "answer_one",
     "answer_rest",
     "arc_through",
     "ask_abreast",
@@ -88,6 +87,8 @@ __all__ = [
     "cosines_in_lane",
     "draw",
     "lay",
+    "rest_stored",
+    "straight_status",
 ]
 
 Rows = NDArray[np.float64]
@@ -221,11 +222,9 @@ def _bridge_stored(asked: int, limit: int, task: Task, nodes: Rows, row: Rows) -
 
 
 @kernel
-def answer_one(asked: int, limit: int, task: Task, nodes: Rows, row: Rows) -> int:
-    """Store the answer to one question by all parts of the solver, each after those that are sooner; the status."""
-    status = straight_status(ALL, NOWHERE, task.separation, held_of(task), row) if asked == STABLE else OPEN
-    if status == OPEN and asked in (STABLE, RUPTURE):
-        status = _summit_stored(asked, limit, task, row)
+def rest_stored(asked: int, limit: int, task: Task, nodes: Rows, row: Rows) -> int:
+    """Store the answer to a question that the straight way has left open, by each part after those that are sooner."""
+    status = _summit_stored(asked, limit, task, row) if asked in (STABLE, RUPTURE) else OPEN
     if status == OPEN and asked in (STABLE, RUPTURE):
         status = _end_stored(asked, limit, task, row)
     if status == OPEN:

@@ -21,6 +21,7 @@ __all__ = [
     "Function",
     "Integer",
     "Real",
+    "Room",
     "kept_or_made",
     "linkable",
     "llvm_text",
@@ -53,7 +54,13 @@ class Array(NamedTuple):
     kind: str = "float64"  # or int32, which is int
 
 
-Argument = Constant | Integer | Real | Count | Array
+class Room(NamedTuple):
+    """So many numbers on the stack for a kernel to work on; C is not asked for them."""
+
+    size: int
+
+
+Argument = Constant | Integer | Real | Count | Array | Room
 
 
 class Function(NamedTuple):
@@ -128,6 +135,8 @@ def _type_of(argument: Argument) -> Any:
     """Type of Numba that the kernel is given."""
     from numba import types
 
+    if isinstance(argument, Room):
+        return types.Array(types.float64, 1, "C")
     if isinstance(argument, Array):
         return types.Array(getattr(types, argument.kind), 2 if argument.columns else 1, "C")
     return types.float64 if isinstance(argument, Real) else types.int64
@@ -139,7 +148,7 @@ def _write(context: Any, module: Any, function: Function, inner: Any, failed: in
     from numba.core.cgutils import get_or_insert_function
 
     returned = _c_type_of(function.returns)
-    asked = [_c_type_of(argument) for argument in function.arguments if not isinstance(argument, Constant)]
+    asked = [_c_type_of(argument) for argument in function.arguments if not isinstance(argument, Constant | Room)]
     outer = ir.Function(module, ir.FunctionType(returned, asked), function.name)
     builder = ir.IRBuilder(outer.append_basic_block())
     given, count, values = iter(outer.args), ir.Constant(ir.IntType(64), 1), []
@@ -170,18 +179,28 @@ def _c_type_of(argument: Argument) -> Any:
 def _value_of(context: Any, builder: Any, argument: Argument, given: Iterator[Any], count: Any) -> Any:
     """What the kernel is given for what C gives next."""
     from llvmlite import ir
-    from numba.np.arrayobj import populate_array
 
     whole = ir.IntType(64)
     if isinstance(argument, Constant):
         return ir.Constant(whole, argument.value)
     if isinstance(argument, Integer):
         return builder.sext(next(given), whole)
+    if isinstance(argument, Room):
+        rows, place = ir.Constant(whole, argument.size), builder.alloca(ir.DoubleType(), argument.size)
+        return _array(context, builder, argument, place, [rows], 8)
     if not isinstance(argument, Array):
         return next(given)
-    size = 8 if argument.kind == "float64" else 4
     shape = [count, ir.Constant(whole, argument.columns)] if argument.columns else [count]
-    strides = [ir.Constant(whole, size * argument.columns), ir.Constant(whole, size)][-len(shape) :]
+    return _array(context, builder, argument, next(given), shape, 8 if argument.kind == "float64" else 4)
+
+
+def _array(context: Any, builder: Any, argument: Argument, place: Any, shape: list[Any], size: int) -> Any:
+    """An array of a kernel in the memory at a place, with elements of so many bytes."""
+    from llvmlite import ir
+    from numba.np.arrayobj import populate_array
+
+    whole = ir.IntType(64)
+    strides = [builder.mul(ir.Constant(whole, size), columns) for columns in shape[1:]]
     array = context.make_array(_type_of(argument))(context, builder)
-    populate_array(array, next(given), shape, strides, ir.Constant(whole, size), None)
+    populate_array(array, place, shape, [*strides, ir.Constant(whole, size)], ir.Constant(whole, size), None)
     return array._getvalue()

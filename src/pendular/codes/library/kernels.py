@@ -7,30 +7,34 @@ from numpy.typing import NDArray
 
 from ...ask.domain import is_in_domain, length_unit, reduced
 from ...ask.problem import LIKELY_BETWEEN_PLANES
-from ...exact.algebra import Four
-from ...exact.answers import stored_from
-from ...exact.batch import FAILED, FOUND, NO_BRIDGE, RUPTURE, STABLE, answer_one
+from ...exact import batch
+from ...exact.batch import FAILED, FOUND, NO_BRIDGE, RUPTURE, STABLE
 from ...exact.follow import BRANCH_ENDS
-from ...exact.morph import Task
+from ...exact.morph import Task, held_of
 from ...exact.state import State
 from ...ground.compile import kernel
-from ...ground.linkable import Array, Constant, Count, Function, Integer, Real
+from ...ground.lanes import lanes
+from ...ground.linkable import Array, Constant, Count, Function, Integer, Real, Room
 
 __all__ = [
     "BAD_INPUT",
     "FAILED",
     "FOUND",
     "FUNCTIONS",
+    "IN_TURN",
     "NO_BRIDGE",
     "PAIR",
     "PAIRS",
+    "ROWS",
     "STATES",
     "Floats",
+    "Integers",
+    "bridge",
     "end_of_branch",
     "in_units",
     "is_fit",
     "likely_separation",
-    "task_of",
+    "question_of",
 ]
 
 Floats = NDArray[np.float64]
@@ -72,32 +76,31 @@ def in_units(state: Floats, length: float, tension: float) -> None:
 
 
 @kernel
-def task_of(control: int, separation: float, held: float, length: float, pair: Floats) -> Task:
-    """The question in a unit of length."""
+def question_of(control: int, separation: float, held: float, pair: Floats) -> tuple[Task, float]:
+    """The question in a unit of length, and that unit."""
+    length = length_unit(control, held, pair[0], pair[1])
     value = reduced(control, held, length, pair[4])
-    return Task(separation / length, value, length / pair[0], pair[2], length / pair[1], pair[3], control)
+    return Task(separation / length, value, length / pair[0], pair[2], length / pair[1], pair[3], control), length
 
 
 @kernel
-def _answered(
-    asked: int, warm: int, control: int, separation: float, held: float, pairs: Floats, states: Floats, i: int
-) -> int:
-    """Answer the question of a row; with ``warm`` from the bridge that its state holds, if that leads there."""
-    pair, state = pairs[i], states[i]
-    if not is_fit(control, separation, held, pair):
-        state[:] = math.nan
-        return BAD_INPUT
-    length = length_unit(control, held, pair[0], pair[1])
-    task = task_of(control, separation, held, length, pair)
-    status = FAILED
-    if warm and state[_MIDDLE] > 0.0 and state[_LENGTH] > 0.0:
-        turn = state[_CURVATURE] * state[_LENGTH]
-        near = Four(math.log(state[_MIDDLE] / length), state[_SLOPE], math.log(state[_LENGTH] / length), turn)
-        status = stored_from(near, task, state)
-    if status != FOUND:
-        status = answer_one(asked, BRANCH_ENDS, task, states[:0], state)  # of which no walk is recorded
+def _near(warm: int, state: Floats, length: float) -> batch.Arc:
+    """The bridge that a state holds, in a unit of length; none if the question is not to start from it."""
+    middle, half = state[_MIDDLE] / length, state[_LENGTH] / length
+    if warm and middle > 0.0 and half > 0.0:
+        return batch.arc_through(middle, state[_SLOPE], half, state[_CURVATURE] * length)
+    return batch.NOWHERE
+
+
+@kernel
+def _ended(status: int, asked: int, task: Task, length: float, pairs: Floats, states: Floats, i: int) -> int:
+    """Answer the question of a row if it is open yet, in its own units; the status."""
+    if status == batch.OPEN:
+        status = batch.rest_stored(asked, BRANCH_ENDS, task, states[:0], states[i])  # no walk is recorded
     if status == FOUND:
-        in_units(state, length, pair[4])
+        in_units(states[i], length, pairs[i, 4])
+    else:
+        states[i, :] = math.nan
     return status
 
 
@@ -111,13 +114,27 @@ def likely_separation(held: float, pair: Floats) -> float:
 @kernel
 def end_of_branch(asked: int, control: int, held: float, pairs: Floats, states: Floats, i: int) -> int:
     """Answer the question of a row for an end of its stable branch; the status."""
-    return _answered(asked, 0, control, likely_separation(held, pairs[i]), held, pairs, states, i)
+    likely = likely_separation(held, pairs[i])
+    if not is_fit(control, likely, held, pairs[i]):
+        states[i, :] = math.nan
+        return BAD_INPUT
+    task, length = question_of(control, likely, held, pairs[i])
+    return _ended(batch.OPEN, asked, task, length, pairs, states, i)
 
 
 @kernel
 def bridge(warm: int, control: int, separation: float, held: float, pairs: Floats, states: Floats) -> int:
-    """The stable bridge of a pair at a separation that holds a suction or a volume; the status."""
-    return _answered(STABLE, warm, control, separation, held, pairs, states, 0)
+    """The stable bridge of a pair at a separation that holds a suction or a volume; the status.
+
+    With ``warm`` it is sought from the bridge that the state holds, if that leads there.
+    """
+    if not is_fit(control, separation, held, pairs[0]):
+        states[0, :] = math.nan
+        return BAD_INPUT
+    task, length = question_of(control, separation, held, pairs[0])
+    near = _near(warm, states[0], length)
+    status = batch.straight_status(batch.ALL, near, task.separation, held_of(task), states[0])
+    return _ended(status, STABLE, task, length, pairs, states, 0)
 
 
 @kernel
@@ -128,14 +145,39 @@ def rupture(control: int, held: float, pairs: Floats, states: Floats) -> int:
 
 @kernel
 def bridges(
-    warm: int, control: int, separation: Floats, held: Floats, pairs: Floats, states: Floats, statuses: Integers
+    warm: int,
+    control: int,
+    separation: Floats,
+    held: Floats,
+    pairs: Floats,
+    states: Floats,
+    statuses: Integers,
+    abreast: Floats,
 ) -> int:
-    """Answer rows as `bridge` does; the largest status."""
-    worst = FOUND
-    for i in range(statuses.size):
-        status = _answered(STABLE, warm, control, float(separation[i]), float(held[i]), pairs, states, i)
-        statuses[i] = status
-        worst = max(worst, status)
+    """Answer rows as `bridge` does, as many abreast as the processor takes; the largest status."""
+    worst, width = FOUND, lanes()
+    for begin in range(0, statuses.size, width):
+        count = min(width, statuses.size - begin)
+        for lane in range(width):
+            i = begin + lane
+            if lane < count and is_fit(control, float(separation[i]), float(held[i]), pairs[i]):
+                task, length = question_of(control, float(separation[i]), float(held[i]), pairs[i])
+                near = _near(warm, states[i], length)
+                statuses[i] = batch.ask_abreast(abreast, lane, near, task.separation, held_of(task), warm != 0)
+            else:
+                batch.ask_nothing(abreast, lane, control)
+                if lane < count:
+                    statuses[i] = BAD_INPUT
+        batch.answer_abreast(abreast, control, batch.ALL, warm != 0)
+        for lane in range(count):
+            i = begin + lane
+            task, length = question_of(control, float(separation[i]), float(held[i]), pairs[i])
+            status = int(statuses[i])
+            if status == batch.OPEN:
+                near = _near(warm, states[i], length)
+                status = batch.abreast_status(abreast, lane, batch.ALL, near, control, states[i])
+            statuses[i] = _ended(status, STABLE, task, length, pairs, states, i)
+            worst = max(worst, int(statuses[i]))
     return worst
 
 
@@ -150,15 +192,19 @@ def ruptures(control: int, held: Floats, pairs: Floats, states: Floats, statuses
     return worst
 
 
-PAIRS, STATES, _STATUSES = Array(len(PAIR)), Array(len(State._fields)), Array(kind="int32")
+PAIRS, STATES, STATUSES = Array(len(PAIR)), Array(len(State._fields)), Array(kind="int32")
 _ONE = (Integer(), Real(), Real(), PAIRS, STATES)
-_ROWS = (Integer(), Count(), Array(), Array(), PAIRS, STATES, _STATUSES)
+ROWS = (Integer(), Count(), Array(), Array(), PAIRS, STATES, STATUSES)
+_ABREAST = (*ROWS, Room(batch.ROOM_ABREAST))
 
-FUNCTIONS = (
+IN_TURN = (
     Function("pendular_bridge", bridge, (Constant(0), *_ONE)),
     Function("pendular_bridge_near", bridge, (Constant(1), *_ONE)),
     Function("pendular_rupture", rupture, (Integer(), Real(), PAIRS, STATES)),
-    Function("pendular_bridges", bridges, (Constant(0), *_ROWS)),
-    Function("pendular_bridges_near", bridges, (Constant(1), *_ROWS)),
-    Function("pendular_ruptures", ruptures, (Integer(), Count(), Array(), PAIRS, STATES, _STATUSES)),
+    Function("pendular_ruptures", ruptures, (Integer(), Count(), Array(), PAIRS, STATES, STATUSES)),
+)
+FUNCTIONS = (
+    *IN_TURN,
+    Function("pendular_bridges", bridges, (Constant(0), *_ABREAST)),
+    Function("pendular_bridges_near", bridges, (Constant(1), *_ABREAST)),
 )

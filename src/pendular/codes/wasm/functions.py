@@ -3,7 +3,6 @@
 import math
 from collections.abc import Iterator
 
-from ...ask.domain import length_unit
 from ...exact.algebra import Four
 from ...exact.answers import LOWER_END, holds_nothing
 from ...exact.equations import VOLUME
@@ -18,7 +17,7 @@ from ...ground.linkable import Array, Count, Function, Integer, Real
 from ...laws import Quantity
 from ...laws._registry import house_laws
 from ..library import kernels
-from ..library.kernels import BAD_INPUT, FOUND, NO_BRIDGE, PAIRS, STATES, Floats, in_units, is_fit
+from ..library.kernels import BAD_INPUT, FOUND, NO_BRIDGE, PAIRS, STATES, Floats, Integers, in_units, is_fit
 
 __all__ = ["ASKED", "functions"]
 
@@ -27,6 +26,17 @@ ASKED: tuple[Quantity, ...] = ("force", "rupture")  # of a law
 _SEPARATION, _MIDDLE, _SLOPE, _LENGTH, _CURVATURE = (
     State._fields.index(name) for name in ("separation", "middle_radius", "middle_slope", "half_length", "curvature")
 )
+
+
+@kernel
+def bridges(control: int, separation: Floats, held: Floats, pairs: Floats, states: Floats, statuses: Integers) -> int:
+    """Bridges of rows one after the other, as wide vectors would double the module; the largest status."""
+    worst = FOUND
+    for i in range(statuses.size):
+        row = slice(i, i + 1)
+        statuses[i] = kernels.bridge(0, control, float(separation[i]), float(held[i]), pairs[row], states[row])
+        worst = max(worst, int(statuses[i]))
+    return worst
 
 
 @kernel
@@ -43,8 +53,7 @@ def curve(control: int, held: float, pairs: Floats, states: Floats, nodes: Float
     likely = kernels.likely_separation(held, pair)
     if not is_fit(control, likely, held, pair):
         return BAD_INPUT
-    length = length_unit(control, held, pair[0], pair[1])
-    task = kernels.task_of(control, likely, held, length, pair)
+    task, length = kernels.question_of(control, likely, held, pair)
     status = NO_BRIDGE if holds_nothing(task) else trace(BRANCH_ENDS, task, states, nodes)
     if status == FOUND:
         for i in range(states.shape[0]):
@@ -61,8 +70,7 @@ def force_rates(control: int, held: float, pairs: Floats, states: Floats, rates:
         return BAD_INPUT
     if not (state[_MIDDLE] > 0.0 and state[_LENGTH] > 0.0):
         return NO_BRIDGE
-    length = length_unit(control, held, pair[0], pair[1])
-    task = kernels.task_of(control, float(state[_SEPARATION]), held, length, pair)
+    task, length = kernels.question_of(control, float(state[_SEPARATION]), held, pair)
     turn = state[_CURVATURE] * state[_LENGTH]
     z = Four(math.log(state[_MIDDLE] / length), state[_SLOPE], math.log(state[_LENGTH] / length), turn)
     reduced = rates_at(z, held_of(task))
@@ -90,12 +98,13 @@ def functions() -> tuple[Function, ...]:
     """All functions of the module, the laws of this package among them."""
     branch = (Integer(), Real(), PAIRS)
     drawn = (
+        Function("pendular_bridges", bridges, kernels.ROWS),
         Function("pendular_lower_end", lower_end, (*branch, STATES)),
         Function("pendular_curve", curve, (*branch, Count(), STATES, Count(), Array(_NODE))),
         Function("pendular_force_rates", force_rates, (*branch, STATES, Array(len(Rates._fields)))),
         Function("pendular_meridian", meridian, (Array(), Count(), Array(), Array())),
     )
-    return (*kernels.FUNCTIONS, *drawn, *_laws())
+    return (*kernels.IN_TURN, *drawn, *_laws())
 
 
 def _laws() -> Iterator[Function]:
