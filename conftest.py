@@ -63,23 +63,31 @@ def pytest_configure(config: pytest.Config) -> None:
     workers = config.getoption("numprocesses", 0)
     if not workers or config.option.collectonly or why_not("numba"):
         return
-    subprocess.run([sys.executable, "-c", COMPILE], check=True)  # in a process that gives its 3 GB back
+    # in processes that give their gigabytes back
+    at_work = [subprocess.Popen([sys.executable, "-c", COMPILE, *questions]) for questions in SHARES]
+    if any([process.wait() for process in at_work]):
+        pytest.exit("kernels cannot be compiled", pytest.ExitCode.INTERNAL_ERROR)
 
+
+# Questions of `pendular.front.ahead` whose kernels take long to compile, for two processors.
+SHARES = (("bridges and rupture", "curves", "bridges of a half-filling angle", "tables"), ("other solids",))
 
 COMPILE = """
 import sys
 from contextlib import nullcontext
-from itertools import islice
-from pendular.front.ahead import compile_ahead
+from pendular.front.ahead import QUESTIONS
 from pendular.ground import native
+from pendular.ground.rows import by_machine_code
 
 def notice():
     print("compiling for all workers and all later runs", file=sys.stderr)
+    native.notices.clear()
     return nullcontext()
 
 native.notices.append(notice)
-for _ in islice(compile_ahead(), 5):  # the others are small
-    pass
+with by_machine_code():
+    for name in sys.argv[1:]:
+        QUESTIONS[name]()
 """
 
 
