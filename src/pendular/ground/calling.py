@@ -10,11 +10,10 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["Native", "caller", "types_of"]
-
-Native = Callable[..., None]
+__all__ = ["Native", "types_of"]
 
 _ANSWERS = (ctypes.c_void_p, ctypes.c_void_p)
+_ROWS = (ctypes.c_int64, ctypes.c_int64)  # start and stop
 _NAMES = (bool, int, float)  # of numbers: those of NumPy are as these
 _NUMBERS = {bool: ctypes.c_int8, float: ctypes.c_double, Integral: ctypes.c_int64}
 
@@ -29,19 +28,31 @@ def types_of(arguments: Any) -> str:
     return next((name.__name__ for name in _NAMES if isinstance(arguments, name)), type(arguments).__name__)
 
 
-def caller(address: int, name: str) -> Native:
-    """Machine code at an address as a function, for arguments of the types of its first call."""
-    typed: list[Callable[..., int]] = []
-    nothing, error = ctypes.c_void_p(), ctypes.c_void_p()
-    answers = (ctypes.byref(nothing), ctypes.byref(error))
+class Native:
+    """Machine code of an entry at an address as a function, for arguments of the types of its first call."""
 
-    def call(*arguments: Any) -> None:
-        if not typed:
-            typed.append(ctypes.CFUNCTYPE(ctypes.c_int32, *_ANSWERS, *_layout(arguments))(address))
-        if typed[0](*answers, *_flat(arguments)) != 0:
-            raise RuntimeError(f"{name} failed")
+    def __init__(self, address: int, name: str) -> None:
+        self._address, self._name = address, name
+        self._typed: Callable[..., int] | None = None
 
-    return call
+    def __call__(self, *arguments: Any) -> None:
+        """Answer rows: the last two arguments are start and stop."""
+        self.of_rows(arguments[:-2])(*arguments[-2:])
+
+    def of_rows(self, arguments: tuple[Any, ...]) -> Callable[[int, int], None]:
+        """It as a function of start and stop alone: the other arguments are laid out once for many calls."""
+        code = self._typed
+        if code is None:
+            kinds = (*_ANSWERS, *_layout(arguments), *_ROWS)
+            code = self._typed = ctypes.CFUNCTYPE(ctypes.c_int32, *kinds)(self._address)
+        nothing, error = ctypes.c_void_p(), ctypes.c_void_p()
+        flat = (ctypes.byref(nothing), ctypes.byref(error), *_flat(arguments))
+
+        def call(start: int, stop: int, _kept_alive: tuple[Any, ...] = arguments) -> None:
+            if code(*flat, start, stop) != 0:
+                raise RuntimeError(f"{self._name} failed")
+
+        return call
 
 
 def _flat(arguments: tuple[Any, ...]) -> list[Any]:

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from . import packaged
-from .calling import Native, caller, types_of
+from .calling import Native, types_of
 from .compile import has_compiler
 from .files import alone, whole
 from .objects import HOST, Entry, object_of
@@ -183,7 +183,7 @@ def _linked(name: str, content: bytes) -> Native:
 
     library = llvm.JITLibraryBuilder().add_object_img(content).add_current_process().export_symbol(name)
     _linkages.append(library.link(_linker(), f"{name}.{len(_linkages)}"))
-    return caller(_linkages[-1][name], name)
+    return Native(_linkages[-1][name], name)
 
 
 @contextmanager

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from . import stamp
-from .calling import Native, caller
+from .calling import Native
 from .linking import linker, shared_library
 
 __all__ = ["FILE", "PROCESSOR", "load", "name_of", "write"]
@@ -55,7 +55,7 @@ def load(function: Callable[..., Any], types: str) -> Native | None:
         return None
     address = ctypes.cast(found, ctypes.c_void_p).value
     assert address is not None
-    return caller(address, name)
+    return Native(address, name)
 
 
 @cache

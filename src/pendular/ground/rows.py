@@ -4,6 +4,7 @@ Plain Python answers a few rows in milliseconds. Loading machine code takes a te
 minute. A process that keeps asking changes over once it has spent on plain answers what the change would cost.
 """
 
+from collections import deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
@@ -14,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import background, native
+from .calling import Native
 from .compile import Kernel, has_compiler, kernel
 from .threads import thread_count
 
@@ -84,14 +86,28 @@ def over_rows(
             (plainly or function)(*example)
         _spent[function] += perf_counter() - start
         return
-    starts = range(0, count, chunk)
-    threads = min(thread_count(), len(starts)) if len(starts) > 1 else 1
+    left = deque(range(0, count, chunk))
+    threads = min(thread_count(), len(left))
     if threads <= 1:
         code(*example)
         return
-    with ThreadPoolExecutor(threads) as pool:
-        for _ in pool.map(lambda start: code(*_owned(arguments), start, min(count, start + chunk)), starts):
-            pass
+
+    def take(part: Callable[[int, int], None]) -> None:
+        while True:
+            try:
+                start = left.popleft()
+            except IndexError:
+                return
+            part(start, min(count, start + chunk))
+
+    with ThreadPoolExecutor(threads - 1) as pool:  # the others; this thread takes its part
+        taking = [pool.submit(take, code.of_rows(_owned(arguments))) for _ in range(threads - 1)]
+        try:
+            take(code.of_rows(example[:-2]))
+        finally:
+            left.clear()  # after an error or an interrupt
+        for other in taking:
+            other.result()
 
 
 def _tell_nobody(_function: Callable[..., None], _seconds: float) -> None:
@@ -112,7 +128,7 @@ def _owned(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
     return tuple(argument.make() if isinstance(argument, Own) else argument for argument in arguments)
 
 
-def _machine_code(function: Callable[..., None], count: int, arguments: tuple[Any, ...]) -> Callable[..., None] | None:
+def _machine_code(function: Callable[..., None], count: int, arguments: tuple[Any, ...]) -> Native | None:
     """Machine code of an entry, if it pays: None to run it as it stands."""
     if _always and has_compiler():
         return _made(function, arguments)
@@ -127,7 +143,7 @@ def _machine_code(function: Callable[..., None], count: int, arguments: tuple[An
     return code
 
 
-def _made(function: Callable[..., None], arguments: tuple[Any, ...]) -> Callable[..., None] | None:
+def _made(function: Callable[..., None], arguments: tuple[Any, ...]) -> Native | None:
     """Machine code of an entry for this processor, made if it is not there, and told of."""
     code, start, took = native.load_own(function, arguments), perf_counter(), 0.0
     if code is None:
