@@ -1,6 +1,7 @@
 """Checks of public arguments: numbers with or without units become SI float64 arrays, or one line refuses them."""
 
 import math
+import operator
 from os import PathLike
 from pathlib import Path
 from typing import Any, TypeVar
@@ -52,9 +53,10 @@ def quantity(name: str, value: object, unit: str, *, allow_inf: bool = False) ->
     array = numbers(name, value, unit)
     if array.size == 0:
         raise ValueError(f"{name}: an array of shape {array.shape} holds no number")
-    _refuse_where(np.isnan(array), name, array, unit, "is not a number")
-    if not allow_inf:
-        _refuse_where(np.isinf(array), name, array, unit, "is not finite")
+    if not -math.inf < array.min() <= array.max() < math.inf:  # a NaN is the least and the largest
+        _refuse_where(np.isnan(array), name, array, unit, "is not a number")
+        if not allow_inf:
+            _refuse_where(np.isinf(array), name, array, unit, "is not finite")
     return array
 
 
@@ -213,11 +215,13 @@ def in_range(
     array = np.asarray(values)
     if array.ndim == 0 and low < array.item() < high:
         return values
-    too_low = ~(array >= low) if brackets[0] == "[" else ~(array > low)
-    too_high = ~(array <= high) if brackets[1] == "]" else ~(array < high)
+    is_above = operator.ge if brackets[0] == "[" else operator.gt
+    is_below = operator.le if brackets[1] == "]" else operator.lt
+    if array.size == 0 or (is_above(array.min(), low) and is_below(array.max(), high)):
+        return values
     reason = f"is not {_interval(low, high, brackets)}"
-    _refuse_where(too_low, name, array, unit, f"{reason}; {low_hint}" if low_hint else reason)
-    _refuse_where(too_high, name, array, unit, f"{reason}; {high_hint}" if high_hint else reason)
+    _refuse_where(~is_above(array, low), name, array, unit, f"{reason}; {low_hint}" if low_hint else reason)
+    _refuse_where(~is_below(array, high), name, array, unit, f"{reason}; {high_hint}" if high_hint else reason)
     return values
 
 
