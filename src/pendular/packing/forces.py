@@ -14,7 +14,7 @@ from ..ground.check import in_range, instance, quantity, scalar, unmasked
 from ..ground.compile import compiled, kernel
 from ..ground.rows import entry, over_rows
 from ..table import Table
-from .step import CHUNK, add_up, ask, distance_of, ends_of, look
+from .step import CHUNK, Question, add_up, distance_of, ends_of, find, put_together
 
 __all__ = ["BridgeState", "ContactForces", "contact_energy", "contact_forces"]
 
@@ -193,22 +193,17 @@ def contact_forces(
     in_range("formation_distance", reach, 0.0, unit="m")
     before = _listed_state(state)
 
-    seen = look(contacts, before.pairs, centres, sizes, reach)
-    if seen.is_faulty or seen.kept < len(before.pairs):  # out of order, or wrong, or bridges that have no contact
-        contacts, order = _in_order("pairs", contacts, len(sizes))
-        before = _checked(before, len(sizes))
-        _separations(contacts, centres, sizes)
-        missing = compiled(_not_among)(before.pairs, contacts)
-        if missing.size:
-            is_held = table.control == "volume" or given.ndim > 0
-            last = before.control[missing] if is_held else np.full(missing.size, given)
-            _refuse_standing(table, BridgeState(before.pairs[missing], last), centres, sizes, tension)
-        given = given if given.ndim == 0 else np.ascontiguousarray(given[order])
-        seen = look(contacts, before.pairs, centres, sizes, reach)
-    bridges = ask(table.grid, contacts, seen, reach, given.reshape(-1), before.control, sizes, tension)
-    if np.isnan(np.sum(bridges.attraction)):  # refused, in words
-        _attractions(table, BridgeState(bridges.pairs, bridges.control), bridges.separation, sizes, tension)
+    asked = Question(
+        table.grid, contacts, before.pairs, before.control, centres, sizes, reach, given.reshape(-1), tension
+    )
+    found = find(asked)
+    if found.is_faulty or found.kept < len(before.pairs):  # out of order, or wrong, or bridges that have no contact
+        asked = _in_question(table, asked, given)
+        found = find(asked)
+    bridges = put_together(asked.pairs, found)
     force, virial = add_up(bridges, centres)
+    if np.isnan(virial).any():  # a bridge is refused, in words
+        _attractions(table, BridgeState(bridges.pairs, bridges.control), bridges.separation, sizes, tension)
     return ContactForces(
         BridgeState(bridges.pairs, bridges.control), force, virial, bridges.separation, bridges.attraction
     )
@@ -274,6 +269,25 @@ def _separations(pairs: Integers, positions: Floats, radii: Floats) -> Floats:
         first, second = pairs[np.flatnonzero(np.isnan(separation))[0]]
         raise ValueError(f"positions: particles {first} and {second} have the same centre")
     return separation
+
+
+def _in_question(table: Table, asked: Question, given: Floats) -> Question:
+    """The same question with pairs and bridges in their order, all of them contacts; wrong ones are refused."""
+    contacts, order = _in_order("pairs", asked.pairs, len(asked.radii))
+    before = _checked(BridgeState(asked.former_pairs, asked.former_control), len(asked.radii))
+    _separations(contacts, asked.positions, asked.radii)
+    missing = compiled(_not_among)(before.pairs, contacts)
+    if missing.size:
+        is_held = table.control == "volume" or given.ndim > 0
+        last = before.control[missing] if is_held else np.full(missing.size, given)
+        _refuse_standing(table, BridgeState(before.pairs[missing], last), asked.positions, asked.radii, asked.tension)
+        before = BridgeState(np.delete(before.pairs, missing, axis=0), np.delete(before.control, missing))
+    return asked._replace(
+        pairs=contacts,
+        former_pairs=before.pairs,
+        former_control=before.control,
+        given=asked.given if given.ndim == 0 else np.ascontiguousarray(given[order]),
+    )
 
 
 def _refuse_standing(

@@ -10,6 +10,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from ..ground.compile import kernel
 from ..ground.rows import Own, element, entry, over_rows
 from . import kernels
 from .kernels import Grid, Place, bend_of, cell_of, if_bridged, liquid_unit, place_of, q_of, reduce_pair
@@ -22,13 +23,47 @@ Operands = tuple[Floats, Floats, Floats, Floats, Floats]  # separation, control,
 # What is asked.
 FORCE, LIQUID, STIFFNESS, ENERGY, RUPTURE = range(5)
 
-_BLOCK = 64
+BLOCK = 64
 _CHUNK = 65536  # contacts that one thread takes at a time
 
 
 def block_room() -> tuple[Floats, Integers]:
-    """Room for `block_range`: numbers and cells."""
-    return np.empty((13, _BLOCK)), np.empty((3, _BLOCK), np.int64)
+    """Room for `answer_block`: numbers and cells."""
+    return np.empty((13, BLOCK)), np.empty((3, BLOCK), np.int64)
+
+
+@kernel
+def answer_block(asked: int, grid: Grid, numbers: Floats, cells: Integers, count: int) -> None:
+    """Forces, or what goes with them, of up to `BLOCK` contacts.
+
+    The first five rows of the numbers are the operands, the last one is the answer; all are worked in.
+    """
+    separation, control, radius1, radius2, gamma = numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]
+    size, rupture, unit, q, star = numbers[5], numbers[6], numbers[7], numbers[8], numbers[12]
+    at_x, at_y, at_t = numbers[9], numbers[10], numbers[11]
+    row, size_cell, cell = cells[0], cells[1], cells[2]
+    coefficients = grid.force if asked == FORCE else grid.liquid
+    beyond = 0.0 if asked == FORCE else math.nan
+    for i in range(count):
+        pair = reduce_pair(grid, control[i], radius1[i], radius2[i], gamma[i])
+        control[i], size[i], row[i], rupture[i] = pair.control, pair.size, pair.side, pair.radius
+    for i in range(count):
+        if asked == FORCE:
+            unit[i] = 2.0 * math.pi * gamma[i] * rupture[i]
+        else:
+            unit[i] = liquid_unit(grid, control[i], rupture[i], gamma[i])
+    for i in range(count):
+        row[i], size_cell[i], at_x[i], at_y[i] = place_of(grid, control[i], size[i], row[i])
+    for i in range(count):
+        star[i] = in_two(grid.rupture, size_cell[i] * RUPTURE_CELL, at_x[i], at_y[i])
+    for i in range(count):
+        rupture[i] *= star[i]
+        q[i] = q_of(separation[i], rupture[i], bend_of(grid, control[i], star[i]))
+    for i in range(count):
+        cell[i], at_t[i] = cell_of(grid, Place(row[i], size_cell[i], at_x[i], at_y[i]), q[i])
+    for i in range(count):
+        value = unit[i] * in_three(coefficients, cell[i] * CELL, at_x[i], at_y[i], at_t[i])
+        star[i] = if_bridged(value, separation[i], rupture[i], beyond)
 
 
 @entry(plain_cost=1e-4, patience=1.0)
@@ -36,38 +71,14 @@ def block_range(
     asked: int, grid: Grid, x: Operands, out: Floats, numbers: Floats, cells: Integers, start: int, stop: int
 ) -> None:
     """Forces, or what goes with them, of the contacts from start to stop, in blocks worked out in numbers and cells."""
-    asking = numbers[:5]
-    separation, control, radius1, radius2, gamma = numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]
-    size, rupture, unit, q, star = numbers[5], numbers[6], numbers[7], numbers[8], numbers[12]
-    at_x, at_y, at_t = numbers[9], numbers[10], numbers[11]
-    row, size_cell, cell = cells[0], cells[1], cells[2]
-    coefficients = grid.force if asked == FORCE else grid.liquid
-    beyond = 0.0 if asked == FORCE else math.nan
-    for begin in range(start, stop, _BLOCK):
-        count = min(_BLOCK, stop - begin)
+    for begin in range(start, stop, BLOCK):
+        count = min(BLOCK, stop - begin)
         for j, operand in enumerate(x):
             for i in range(count):
-                asking[j, i] = element(operand, begin + i)
+                numbers[j, i] = element(operand, begin + i)
+        answer_block(asked, grid, numbers, cells, count)
         for i in range(count):
-            pair = reduce_pair(grid, control[i], radius1[i], radius2[i], gamma[i])
-            control[i], size[i], row[i], rupture[i] = pair.control, pair.size, pair.side, pair.radius
-        for i in range(count):
-            if asked == FORCE:
-                unit[i] = 2.0 * math.pi * gamma[i] * rupture[i]
-            else:
-                unit[i] = liquid_unit(grid, control[i], rupture[i], gamma[i])
-        for i in range(count):
-            row[i], size_cell[i], at_x[i], at_y[i] = place_of(grid, control[i], size[i], row[i])
-        for i in range(count):
-            star[i] = in_two(grid.rupture, size_cell[i] * RUPTURE_CELL, at_x[i], at_y[i])
-        for i in range(count):
-            rupture[i] *= star[i]
-            q[i] = q_of(separation[i], rupture[i], bend_of(grid, control[i], star[i]))
-        for i in range(count):
-            cell[i], at_t[i] = cell_of(grid, Place(row[i], size_cell[i], at_x[i], at_y[i]), q[i])
-        for i in range(count):
-            value = unit[i] * in_three(coefficients, cell[i] * CELL, at_x[i], at_y[i], at_t[i])
-            out[begin + i] = if_bridged(value, separation[i], rupture[i], beyond)
+            out[begin + i] = numbers[-1, i]
 
 
 @entry(plain_cost=1e-4, patience=1.0)
