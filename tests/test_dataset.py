@@ -382,15 +382,15 @@ def test_two_runs_may_make_one_store(tmp_path):
 
 def test_of_two_that_create_a_store_one_is_in_time(tmp_path, monkeypatch):
     path = tmp_path / "bridges.zarr"
-    create = ds._to_zarr
+    create = ds._write_empty
 
-    def slow(*arguments, **options):
+    def slow(*arguments):
         if not path.exists():
-            monkeypatch.setattr(ds, "_to_zarr", create)
+            monkeypatch.setattr(ds, "_write_empty", create)
             ds.make_dataset(path, **SMALL)
-        create(*arguments, **options)
+        create(*arguments)
 
-    monkeypatch.setattr(ds, "_to_zarr", slow)
+    monkeypatch.setattr(ds, "_write_empty", slow)
     assert ds.make_dataset(path, **SMALL).identical(ds.make_dataset(**SMALL))
     assert [entry.name for entry in tmp_path.iterdir()] == ["bridges.zarr"]
 

@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..ground.check import angle, as_path, in_range, instance, quantity, whole_number
-from ..ground.compile import compiled
 from ..ground.files import in_one_line, whole
-from .grid import GridPoint, Solids, fill_grid
+from ..ground.rows import over_rows
+from .grid import GridPoint, Solids, grid_range
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -46,6 +46,7 @@ _DIMS = (*PAIR_DIMS, "half_filling_angle", "neck_ratio")
 _LARGEST_FILLING = np.deg2rad(60.0)
 _DECADES = 5.0  # of half-filling angle: down to the rupture at H* = 2e7
 _CROWDING = 3.0  # 1 - Q is the power of an even spacing: at H* = 1e6 a bridge at contact has 1 - Q = 7e-4
+_POINTS_PER_TASK = 2**12  # of a thread
 _POINTS_PER_CHUNK = 2**18  # about 30 MB of all variables: what one worker holds
 _ALL_CHUNKS = {"array.write_empty_chunks": True}  # so that a chunk that is not there was lost
 _COMPUTED = "computed"  # set for a block of rows after all of its variables are written
@@ -75,6 +76,9 @@ _VARIABLES = (
     ("surface_energy_star", "gamma R^2", "surface energy against dry solids", "E_surf*"),
     ("grand_potential_star", "gamma R^2", "surface energy + suction x volume", "E_surf* + H* V*"),
 )
+
+
+VARIABLES = tuple(name for name, *_ in _VARIABLES)
 
 
 class _Block(NamedTuple):
@@ -156,11 +160,24 @@ def make_dataset(
     >>> data.force_star.attrs["units"], data.force_star.attrs["long_name"]
     ('R', 'capillary force over 2 pi gamma, attraction positive')
     """
+    if path is not None:
+        fill_store(path, shape, size_ratio, contact_angle, workers, progress)
+        return load_dataset(path)
+    if workers is not None:
+        raise ValueError(f"workers: {workers!r} given without a path; workers write into a Zarr store")
+    return _in_memory(_grid(shape, size_ratio, contact_angle), progress)
+
+
+def fill_store(
+    path: StrPath,
+    shape: tuple[int, int],
+    size_ratio: ArrayLike,
+    contact_angle: ArrayLike,
+    workers: Workers,
+    progress: bool,
+) -> dict[str, int]:
+    """Compute a data base into a store as `make_dataset` does, and tell how many values each coordinate has."""
     grid = _grid(shape, size_ratio, contact_angle)
-    if path is None:
-        if workers is not None:
-            raise ValueError(f"workers: {workers!r} given without a path; workers write into a Zarr store")
-        return _in_memory(grid, progress)
     store = _zarr_path(path)
     with _hands(workers) as done_by, in_one_line("path", store):
         if not store.exists():
@@ -169,7 +186,7 @@ def make_dataset(
         blocks = _missing(store)
         for _ in _tracked(done_by(partial(_fill_block, str(store)), blocks), len(blocks), progress):
             pass
-    return load_dataset(store)
+    return {name: values.size for name, values in grid.items()}
 
 
 def save_dataset(dataset: "xr.Dataset", path: StrPath) -> None:
@@ -240,7 +257,7 @@ def check_dataset(dataset: object, name: str = "dataset", place: str = "it") -> 
 
     instance(name, dataset, xr.Dataset)
     held = dataset.variables  # type: ignore[attr-defined]
-    for variable in (*_DIMS, *(variable for variable, *_ in _VARIABLES)):
+    for variable in (*_DIMS, *VARIABLES):
         if variable not in held:
             raise ValueError(f"{name}: {place} lacks {variable}, and is no data base of make_dataset")
 
@@ -292,7 +309,8 @@ def solids_of(size_ratio: float, contact_angle: float) -> Solids:
 def _compute(size_ratio: float, contact_angle: float, fillings: Floats, neck_ratios: Floats) -> Floats:
     """All variables of some rows of a pair."""
     values = np.empty((len(GridPoint._fields), fillings.size, neck_ratios.size))
-    compiled(fill_grid)(fillings, neck_ratios, solids_of(size_ratio, contact_angle), values)
+    solids, count = solids_of(size_ratio, contact_angle), fillings.size * neck_ratios.size
+    over_rows(grid_range, count, _POINTS_PER_TASK, fillings, neck_ratios, solids, values)
     return values
 
 
@@ -348,32 +366,57 @@ def _zarr_path(path: StrPath) -> Path:
 
 def _create(store: Path, grid: dict[str, Floats]) -> None:
     """Write coordinates and attributes; the arrays stay empty. Of several runs that do so at once one is in time."""
-    import dask.array as da
-
-    shape = tuple(axis.size for axis in grid.values())
-    rows = min(max(_POINTS_PER_CHUNK // shape[3], 1), shape[2])
-    chunks = (1, 1, rows, shape[3])
-    empty = da.full(shape, np.nan, chunks=chunks)
-    dataset = _labelled(grid, [empty] * len(_VARIABLES))
-    dataset[_COMPUTED] = (_DIMS[:3], da.zeros(shape[:3], dtype=bool, chunks=chunks[:3]))
     try:
         with whole(store) as draft:
-            _to_zarr(dataset, draft, compute=False)
+            _write_empty(draft, grid)
     except OSError:
         if not store.is_dir():
             raise
 
 
-def _to_zarr(dataset: "xr.Dataset", path: Path, *, compute: bool = True) -> None:
+def _write_empty(path: Path, grid: dict[str, Floats]) -> None:
+    """Write a store by Zarr alone: to import what labels arrays takes longer than to compute them."""
+    import zarr
+
+    group: Any = zarr.create_group(path, attributes=_provenance())
+
+    def add(name: str, dims: Sequence[str], chunks: tuple[int, ...], label: Sequence[str] = (), **kind: Any) -> Any:
+        return group.create_array(
+            name,
+            shape=tuple(grid[dim].size for dim in dims),
+            chunks=chunks,
+            dimension_names=dims,
+            attributes=_attributes(label) if label else None,
+            compressors=_checked(),
+            **kind,
+        )
+
+    for name, values in grid.items():
+        with zarr.config.set(_ALL_CHUNKS):
+            add(name, (name,), values.shape, _COORDINATES[name], dtype=np.float64, fill_value=np.nan)[:] = values
+    ratios = grid[_DIMS[3]].size
+    rows = min(max(_POINTS_PER_CHUNK // ratios, 1), grid[_DIMS[2]].size)
+    for name, *label in _VARIABLES:
+        add(name, _DIMS, (1, 1, rows, ratios), label, dtype=np.float64, fill_value=np.nan)
+    add(_COMPUTED, _DIMS[:3], (1, 1, rows), dtype=bool, fill_value=False)
+
+
+def _checked() -> tuple[Any, ...]:
+    """Codecs of a chunk, and a checksum: bytes of one rank lie together, and then the quickest code is smallest."""
+    from zarr.codecs import BloscCodec, Crc32cCodec
+
+    return BloscCodec(cname="lz4", clevel=1), Crc32cCodec()
+
+
+def _to_zarr(dataset: "xr.Dataset", path: Path) -> None:
     """Write a store in which every chunk carries a checksum, and none is left out for being empty."""
     import zarr
-    from zarr.codecs import ZstdCodec
 
     checked: Any = {
-        name: {"compressors": (ZstdCodec(checksum=True),), "chunks": array.encoding.get("chunks")}
+        name: {"compressors": _checked(), "chunks": array.encoding.get("chunks")}
         for name, array in dataset.variables.items()
     }
-    options: Any = {"mode": "w-", "compute": compute, "consolidated": False, "encoding": checked}
+    options: Any = {"mode": "w-", "consolidated": False, "encoding": checked}
     with zarr.config.set(_ALL_CHUNKS):
         dataset.to_zarr(path, **options)
 
@@ -397,15 +440,16 @@ def _from_zarr(store: Path) -> "xr.Dataset":
 
 def _refuse_other(store: Path, grid: dict[str, Floats]) -> None:
     """Refuse to continue a store of another grid, or of another version, whose numbers might differ."""
-    import xarray as xr
+    import zarr
 
     with damage_told("path", str(store)):
-        opened = xr.open_zarr(store, chunks=None, consolidated=False)
-    with opened as found:
-        if found.attrs != _provenance():
-            raise ValueError(f"path: {store} was written by {found.attrs.get('source', 'another program')}")
-        if any(not np.array_equal(found[name], values) for name, values in grid.items()):
-            raise ValueError(f"path: {store} holds a data base with other coordinates")
+        group: Any = zarr.open_group(store, mode="r")
+        attributes = group.attrs.asdict()
+        found = {name: np.asarray(group[name][:]) for name in grid if name in group}
+    if attributes != _provenance():
+        raise ValueError(f"path: {store} was written by {attributes.get('source', 'another program')}")
+    if any(name not in found or not np.array_equal(found[name], values) for name, values in grid.items()):
+        raise ValueError(f"path: {store} holds a data base with other coordinates")
 
 
 def _missing(store: Path) -> list[_Block]:
@@ -427,7 +471,7 @@ def _missing(store: Path) -> list[_Block]:
 def _is_whole(group: Any, block: _Block) -> bool:
     """Whether all chunks of a block are there, for a missing one reads as NaN, and none is damaged."""
     try:
-        return all(np.isfinite(group[name][block.region]).any() for name, *_ in _VARIABLES)
+        return all(np.isfinite(group[name][block.region]).any() for name in VARIABLES)
     except Exception:  # each codec raises an error of its own
         return False
 
@@ -441,7 +485,7 @@ def _fill_block(store: str, block: _Block) -> None:
     rows = fillings[block.start : block.stop]
     values = _compute(float(ratios[block.ratio]), float(angles[block.angle]), rows, neck_ratios)
     with zarr.config.set(_ALL_CHUNKS):
-        for (name, *_), array in zip(_VARIABLES, values, strict=True):
+        for name, array in zip(VARIABLES, values, strict=True):
             group[name][block.region] = array
         group[_COMPUTED][block.region] = True
 

@@ -19,6 +19,7 @@ from ..exact.algebra import Four
 from ..exact.arc import WIDEST_ETA, Arc, half_from_neck, half_length_of
 from ..exact.meridian import measure_arc, place_after, tensor_of, turn_of
 from ..ground.compile import kernel
+from ..ground.rows import entry
 from ..laws.contact_circle import Contact, cap_volume, contact_at, wetted_arc_of, wetted_area
 
 Vector = NDArray[np.float64]
@@ -165,14 +166,19 @@ def grid_point(filling: float, neck_ratio: float, solids: Solids) -> GridPoint:
     )
 
 
-@kernel
-def fill_grid(fillings: Vector, neck_ratios: Vector, solids: Solids, out: NDArray[np.float64]) -> None:
-    """All bridges of a grid; ``out`` has the fields of :class:`GridPoint`, the angles and the ratios as its axes."""
-    for i in range(fillings.size):
-        for j in range(neck_ratios.size):
-            point = grid_point(fillings[i], neck_ratios[j], solids)
-            for field, value in enumerate(point):
-                out[field, i, j] = value
+@entry(plain_cost=math.inf)  # plain Python has other last digits, and the numbers are the same in all runs
+def grid_range(
+    fillings: Vector, neck_ratios: Vector, solids: Solids, out: NDArray[np.float64], start: int, stop: int
+) -> None:
+    """Bridges of a grid from start to stop, all of a half-filling angle in turn.
+
+    ``out`` has the fields of :class:`GridPoint`, the angles and the ratios as its axes.
+    """
+    for number in range(start, stop):
+        i, j = number // neck_ratios.size, number % neck_ratios.size
+        point = grid_point(fillings[i], neck_ratios[j], solids)
+        for field, value in enumerate(point):
+            out[field, i, j] = value
 
 
 class Sheet(NamedTuple):

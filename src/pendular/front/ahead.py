@@ -9,11 +9,12 @@ from ..ask.face import bridge, curve, rupture
 from ..ask.liquid import Liquid
 from ..ask.pair import Pair
 from ..ask.shapes import Cone
+from ..dataset.grid import GridPoint, Solids, grid_range
 from ..exact.batch import STABLE, answer
 from ..exact.branch import branches
 from ..exact.equations import SUCTION, VOLUME
 from ..exact.sensitivities import rates_of_force
-from ..ground.rows import by_machine_code
+from ..ground.rows import by_machine_code, over_rows
 from ..laws import damping_star, force_star, laws, rupture_star, rupture_work_star
 from ..packing.forces import contact_energy, contact_forces
 from ..packing.lattice import lattice_packing
@@ -109,6 +110,11 @@ def _ask_heap() -> None:
     _ = found.stress_shares, found.meetings, found.interface_area
 
 
+def _ask_grid() -> None:
+    point = np.empty((len(GridPoint._fields), 1, 1))
+    over_rows(grid_range, 1, 1, np.array([0.3]), np.array([0.5]), Solids(1.0, 0.35, 1.0, 0.35), point)
+
+
 def _ask_fit() -> None:
     rates_of_force(VOLUME, _QUESTION, answer(STABLE, VOLUME, _QUESTION)[0])
 
@@ -125,6 +131,7 @@ QUESTIONS: dict[str, Callable[[], None]] = {
     "tables": _ask_table,
     "laws": _ask_laws,
     "heaps": _ask_heap,
+    "data bases": _ask_grid,
     "fits": _ask_fit,
     "paths": _ask_path,
 }

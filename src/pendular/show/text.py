@@ -30,6 +30,7 @@ __all__ = [
     "csv_text",
     "curve_table",
     "dataset_lines",
+    "interpolation_lines",
     "json_text",
     "plain_fields",
     "rupture_table",
@@ -160,17 +161,25 @@ def csv_text(*tables: list[Column]) -> str:
     return text.getvalue()
 
 
-def dataset_lines(dataset: xr.Dataset, check: bool) -> str:
-    """What a data base holds and, if wanted, the measured error of its interpolation, as lines of text."""
-    sizes = " x ".join(f"{count} {str(name).replace('_', ' ')}" for name, count in dataset.sizes.items())
-    points = math.prod(dataset.sizes.values())
-    lines = [f"{points} points: {sizes}", f"variables: {', '.join(map(str, dataset.data_vars))}"]
-    if check:
-        from ..dataset.interpolation import interpolation_error
+def dataset_lines(sizes: Mapping[str, int], variables: Iterable[str]) -> str:
+    """What a data base holds, as lines of text.
 
-        lines += ["", "relative error of the interpolation against the exact solution"]
-        lines.append(interpolation_error(dataset).to_dataframe().to_string(float_format=lambda x: f"{x:.2g}"))
-    return "\n".join(lines)
+    Examples
+    --------
+    >>> print(dataset_lines({"half_filling_angle": 240, "neck_ratio": 200}, ["force_star"]))
+    48000 points: 240 half filling angle x 200 neck ratio
+    variables: force_star
+    """
+    axes = " x ".join(f"{count} {name.replace('_', ' ')}" for name, count in sizes.items())
+    return f"{math.prod(sizes.values())} points: {axes}\nvariables: {', '.join(variables)}"
+
+
+def interpolation_lines(dataset: xr.Dataset) -> str:
+    """Measured error of the interpolation of a data base, as lines of text."""
+    from ..dataset.interpolation import interpolation_error
+
+    rows = interpolation_error(dataset).to_dataframe().to_string(float_format=lambda x: f"{x:.2g}")
+    return f"\nrelative error of the interpolation against the exact solution\n{rows}"
 
 
 def plain_fields(bridge: Bridge) -> dict[str, Any]:

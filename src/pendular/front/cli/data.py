@@ -30,14 +30,14 @@ def dataset(
 ) -> None:
     """Data base of bridges over half-filling angle and neck ratio."""
     from ...dataset import base as data
-    from ...show.text import dataset_lines
+    from ...show.text import dataset_lines, interpolation_lines
 
     counts = re.fullmatch(r"(\d+)x(\d+)", shape)
     if counts is None:
         raise ValueError(f"shape: {shape!r} is not of the form 240x200")
     need_extra("data", "xarray", "zarr", "h5netcdf", "dask")
     degrees = None if contact_angle is None else sorted(read_contact_angle("contact-angle", a) for a in contact_angle)
-    made = data.make_dataset(
+    sizes = data.fill_store(
         path,
         shape=(int(counts[1]), int(counts[2])),
         size_ratio=sorted(ratio or data.PAPER_RATIOS),
@@ -46,8 +46,10 @@ def dataset(
         progress=True,
     )
     if netcdf is not None:
-        data.save_dataset(made, netcdf)
-    typer.echo(dataset_lines(made, check))
+        data.save_dataset(data.load_dataset(path), netcdf)
+    typer.echo(dataset_lines(sizes, data.VARIABLES))
+    if check:
+        typer.echo(interpolation_lines(data.load_dataset(path)))
 
 
 @app.command(epilog="\b\nExample:\n  pendular paper --out paper")
