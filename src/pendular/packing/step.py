@@ -23,7 +23,8 @@ __all__ = ["CHUNK", "Bridges", "Found", "Question", "add_up", "distance_of", "en
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-CHUNK = 16384  # contacts, or particles, that one thread takes at a time
+CHUNK = 16384  # contacts whose bridges lie together, or particles whose virials are added up
+_CALLS = 8  # of a thread in a pass: to lay out the arguments of one takes as long as some hundred contacts
 _BEYOND = 1 << 62
 
 
@@ -94,11 +95,19 @@ def ends_of(pairs: Integers, contact: int) -> tuple[int, int]:
 
 
 @kernel
+def _arm_of(positions: Floats, first: int, second: int) -> tuple[float, float, float]:
+    """From one centre to another."""
+    return (
+        positions[second, 0] - positions[first, 0],
+        positions[second, 1] - positions[first, 1],
+        positions[second, 2] - positions[first, 2],
+    )
+
+
+@kernel
 def distance_of(positions: Floats, first: int, second: int) -> float:
     """Between two centres."""
-    x = positions[second, 0] - positions[first, 0]
-    y = positions[second, 1] - positions[first, 1]
-    z = positions[second, 2] - positions[first, 2]
+    x, y, z = _arm_of(positions, first, second)
     return math.sqrt(x * x + y * y + z * z)
 
 
@@ -184,12 +193,17 @@ def _find_range(asked: Question, found: Found, room: _Room, start: int, stop: in
         _find_at(asked, found, room, begin, min(begin + CHUNK, stop))
 
 
+def _at_a_time(count: int) -> int:
+    """Contacts that one thread takes at a time: some chunks."""
+    return CHUNK * max(count // (CHUNK * _CALLS * thread_count()), 1)
+
+
 def find(asked: Question) -> Found:
     """Measure contacts, and ask the table for their bridges."""
     count = len(asked.pairs)
     rows = np.empty((4, count))  # in one block, as the system keeps it at hand for the next step
     found = Found(rows[0].view(np.int64), rows[1], rows[2], rows[3], np.zeros((-(-count // CHUNK), 3), np.int64))
-    over_rows(_find_range, count, CHUNK, asked, found, Own(_room))
+    over_rows(_find_range, count, _at_a_time(count), asked, found, Own(_room))
     return found
 
 
@@ -223,7 +237,7 @@ def put_together(pairs: Integers, found: Found) -> Bridges:
         np.empty((count, 2), np.int64), np.empty(count), np.empty(count), np.empty(count),
         ends, np.empty(len(found.counts), np.int64),
     )  # fmt: skip
-    over_rows(_put_range, len(pairs), CHUNK, pairs, found, bridges)
+    over_rows(_put_range, len(pairs), _at_a_time(len(pairs)), pairs, found, bridges)
     return bridges
 
 
@@ -239,13 +253,17 @@ def _add_pulls(bridges: Bridges, positions: Floats, force: Floats, start: int, s
                 return  # bridges are in the order of the smaller
             is_first, is_second = start <= first < stop, start <= second < stop
             if is_first or is_second:
-                pull = bridges.attraction[bridge] / distance_of(positions, first, second)
-                for k in range(3):
-                    part = pull * (positions[second, k] - positions[first, k])
-                    if is_first:
-                        force[first, k] += part
-                    if is_second:
-                        force[second, k] -= part
+                x, y, z = _arm_of(positions, first, second)
+                pull = bridges.attraction[bridge] / math.sqrt(x * x + y * y + z * z)
+                x, y, z = pull * x, pull * y, pull * z
+                if is_first:
+                    force[first, 0] += x
+                    force[first, 1] += y
+                    force[first, 2] += z
+                if is_second:
+                    force[second, 0] -= x
+                    force[second, 1] -= y
+                    force[second, 2] -= z
 
 
 @kernel
