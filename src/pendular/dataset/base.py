@@ -184,7 +184,7 @@ def fill_store(
             _create(store, grid)
         _refuse_other(store, grid)
         blocks = _missing(store)
-        for _ in _tracked(done_by(partial(_fill_block, str(store)), blocks), len(blocks), progress):
+        for _ in _tracked(done_by(partial(_fill_block, _opened(store)), blocks), len(blocks), progress):
             pass
     return {name: values.size for name, values in grid.items()}
 
@@ -476,18 +476,34 @@ def _is_whole(group: Any, block: _Block) -> bool:
         return False
 
 
-def _fill_block(store: str, block: _Block) -> None:
-    """Compute a block and write it; the mark that it is done comes last, so that a torn block is computed again."""
+class _Opened(NamedTuple):
+    """A store, opened once for many blocks: to open its arrays takes as long as to compute some."""
+
+    axes: list[Floats]
+    arrays: list[Any]  # one for each variable
+    computed: Any
+
+
+def _opened(store: Path) -> _Opened:
+    """Open a store to be written."""
     import zarr
 
     group: Any = zarr.open_group(store, mode="r+")
-    ratios, angles, fillings, neck_ratios = (np.asarray(group[name][:]) for name in _DIMS)
+    axes = [np.asarray(group[name][:]) for name in _DIMS]
+    return _Opened(axes, [group[name] for name in VARIABLES], group[_COMPUTED])
+
+
+def _fill_block(store: _Opened, block: _Block) -> None:
+    """Compute a block and write it; the mark that it is done comes last, so that a torn block is computed again."""
+    import zarr
+
+    ratios, angles, fillings, neck_ratios = store.axes
     rows = fillings[block.start : block.stop]
     values = _compute(float(ratios[block.ratio]), float(angles[block.angle]), rows, neck_ratios)
     with zarr.config.set(_ALL_CHUNKS):
-        for name, array in zip(VARIABLES, values, strict=True):
-            group[name][block.region] = array
-        group[_COMPUTED][block.region] = True
+        for array, content in zip(store.arrays, values, strict=True):
+            array[block.region] = content
+        store.computed[block.region] = True
 
 
 @contextmanager
