@@ -303,6 +303,25 @@ def test_bad_input_is_refused_in_one_line(tables, bad, message):
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.parametrize("control", ["suction", "volume"])
+def test_where_a_list_leaves_out_broken_bridges_the_others_go_on(tables, control):
+    rng, pairs, positions, radii = packing(16)
+    values = rng.uniform(*{"suction": (1e4, 4e4), "volume": (1e-15, 4e-15)}[control], len(pairs))
+    state = contact_forces(tables[control], pairs, positions, radii, values, TENSION).state
+    positions[positions[:, 0] > 500e-6] += (100e-6, 0.0, 0.0)  # a layer goes away
+    gaps = np.linalg.norm(positions[pairs[:, 0]] - positions[pairs[:, 1]], axis=1) - radii[pairs].sum(axis=1)
+    near = gaps < 50e-6
+    assert not near.all()
+    whole, part = (
+        contact_forces(tables[control], pairs[kept], positions, radii, values[kept], TENSION, state=state)
+        for kept in (slice(None), near)
+    )
+    assert 0 < len(whole.state.pairs) < len(state.pairs)
+    np.testing.assert_array_equal(whole.force, part.force)
+    for former, found in zip(whole.state, part.state, strict=True):
+        np.testing.assert_array_equal(former, found)
+
+
 def test_a_list_may_leave_out_bridges_that_broke(tables):
     far = at(1e-4, (1e-4, 1e-4))
     found = contact_forces(tables["suction"], [], far, (1e-4, 1e-4), SUCTION, TENSION, state=STATE)

@@ -1,5 +1,6 @@
 """Rows in plain Python and by machine code: the same answers, and no compiler where there is none or it is no gain."""
 
+import itertools
 import json
 import math
 import os
@@ -133,6 +134,42 @@ def test_the_number_of_threads_changes_no_bit(threads, by_machine, monkeypatch):
     states, _ = by_machine(batch.STABLE, VOLUME, question)
     monkeypatch.setattr(batch, "_CHUNK", 1000)
     np.testing.assert_array_equal(states, by_machine(batch.STABLE, VOLUME, question)[0])
+
+
+class Watched:
+    """Code of an entry that tells which rows are asked of it, in which room."""
+
+    def __init__(self, fails_at=-1):
+        self.parts, self.fails_at = [], fails_at
+
+    def of_rows(self, arguments):
+        """As a function of start and stop."""
+        return lambda start, stop: self.answer(start, stop, *arguments)
+
+    def answer(self, start, stop, room):
+        """Note the rows."""
+        self.parts.append((start, stop, room))
+        if start == self.fails_at:
+            raise RuntimeError("it failed")
+
+
+@pytest.mark.parametrize("threads", [2, 3, 40])
+def test_threads_take_all_chunks_once_in_a_room_of_their_own(threads, monkeypatch):
+    rooms, code = itertools.count(), Watched()
+    monkeypatch.setattr(rows, "_machine_code", lambda *_: code)
+    monkeypatch.setattr(rows, "thread_count", lambda: threads)
+    rows.over_rows(None, 100, 7, rows.Own(lambda: next(rooms)))
+    assert sorted(part[:2] for part in code.parts) == [(at, min(at + 7, 100)) for at in range(0, 100, 7)]
+    assert next(rooms) == min(threads, 15)
+    assert {room for *_, room in code.parts} <= set(range(min(threads, 15)))
+
+
+@pytest.mark.parametrize("start", [0, 49, 98])
+def test_an_error_of_one_thread_is_told(start, monkeypatch):
+    monkeypatch.setattr(rows, "_machine_code", lambda *_: Watched(start))
+    monkeypatch.setattr(rows, "thread_count", lambda: 3)
+    with pytest.raises(RuntimeError, match="it failed"):
+        rows.over_rows(None, 100, 7, 0)
 
 
 ASK_A_FEW = """
