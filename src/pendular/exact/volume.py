@@ -25,7 +25,7 @@ class Met(NamedTuple):
 
 
 @kernel
-def _target(excess: float) -> float:
+def volume_target(excess: float) -> float:
     """Right side of the held row, V/V0 ln(V0/V) where the volume is not far too small: ln x by (x - 1)/(x + 1)."""
     s = excess / choose(excess > -1.0, 2.0 + excess, 1.0)
     square = s * s
@@ -42,7 +42,7 @@ def met_at_volume(arc: Arc, separation: float, held: Held, left: float, is_near:
         x, weight = (X32, W32) if is_fine else (X8, W8)
         system = system_on(arc, held, sums_at(arc, x, weight, True), True)
         row = volume_row(system, held)
-        change = step_to(separation, system, row.rates, _target(row.value))
+        change = step_to(separation, system, row.rates, volume_target(row.value))
         size = max(largest_of(change), NO_STEP)
         arc = chosen(is_met, arc, arc_after(arc, change, LONGEST_STEP / max(size, LONGEST_STEP)))
         if is_fine:
