@@ -85,12 +85,16 @@ __all__ = [
     "answer_rest",
     "arc_through",
     "ask_abreast",
+    "ask_end_in_lane",
     "ask_nothing",
     "cosines_in_lane",
     "draw",
+    "ends_abreast",
+    "found_in_lane",
     "lay",
     "rest_stored",
     "straight_status",
+    "summit_status",
 ]
 
 Rows = NDArray[np.float64]
@@ -173,7 +177,7 @@ def abreast_status(room: Numbers, lane: int, wanted: int, near: Arc, control: in
 
 
 @kernel
-def _summit_stored(asked: int, limit: int, task: Task, found: Arc, row: Rows) -> int:
+def summit_status(asked: int, limit: int, task: Task, found: Arc, row: Rows) -> int:
     """Store a rupture that is beyond doubt, or tell that no bridge is beyond it; else OPEN.
 
     The arc found there is taken if its radius is above 0.
@@ -231,7 +235,7 @@ def _bridge_stored(asked: int, limit: int, task: Task, nodes: Rows, row: Rows) -
 @kernel
 def rest_stored(asked: int, limit: int, task: Task, nodes: Rows, row: Rows) -> int:
     """Store the answer to a question that the straight way has left open, by each part after those that are sooner."""
-    status = _summit_stored(asked, limit, task, NOWHERE, row) if asked in (STABLE, RUPTURE) else OPEN
+    status = summit_status(asked, limit, task, NOWHERE, row) if asked in (STABLE, RUPTURE) else OPEN
     if status == OPEN and asked in (STABLE, RUPTURE):
         status = _end_stored(asked, limit, task, row)
     if status == OPEN:
@@ -285,7 +289,7 @@ def summit_range(
         ends_abreast(room, control)
         for i in range(begin, min(begin + width, stop)):
             found = found_in_lane(room, i - begin)
-            statuses[i] = _summit_stored(asked, limit, task_of(questions[i], control), found, states[i])
+            statuses[i] = summit_status(asked, limit, task_of(questions[i], control), found, states[i])
             if statuses[i] != FOUND:
                 states[i, :] = math.nan
 
