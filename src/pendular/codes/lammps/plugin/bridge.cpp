@@ -14,6 +14,14 @@ void Bridges::clear()
     unused.clear();
 }
 
+/* New memory is slow to come by, and a bridge that is moved into more of it takes it twice. */
+void Bridges::reserve(int most)
+{
+    ends.reserve(most);
+    record.reserve(most);
+    origin.reserve(most);
+}
+
 Bridge &Bridges::record_of(int number)
 {
     int &own = record[number];

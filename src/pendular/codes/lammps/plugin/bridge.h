@@ -45,10 +45,19 @@ struct Bridges {
     int count() const { return static_cast<int>(ends.size()); }
 
     void clear();
+    void reserve(int most);
     void add(const Ends &pair, const Origin &of)
     {
-        ends.push_back(pair);
-        origin.push_back(of);
+        Ends &end = ends.emplace_back(); /* number by number: the two atoms read as one would wait for their writing */
+        end.i = pair.i;
+        end.j = pair.j;
+        end.sum = pair.sum;
+        end.touching = pair.touching;
+        Origin &own = origin.emplace_back();
+        own.tag1 = of.tag1;
+        own.tag2 = of.tag2;
+        own.law = of.law;
+        own.held = of.held;
         record.push_back(-1);
     }
 

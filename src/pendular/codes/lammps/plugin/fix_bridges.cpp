@@ -29,8 +29,6 @@ FixBridges::FixBridges(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
     maxexchange_dynamic = 1;
     comm_reverse = 1;
     FixBridges::grow_arrays(atom->nmax);
-    for (int i = 0; i < atom->nlocal; ++i)
-        count[i] = 0;
     atom->add_callback(Atom::GROW);
     atom->add_callback(Atom::RESTART);
 }
@@ -67,22 +65,22 @@ void FixBridges::pre_exchange()
     if (!is_behind || !pair)
         return;
     is_behind = false;
-    std::fill(count.begin(), count.end(), 0);
+    std::fill(rows.begin(), rows.end(), Row());
     for (const Ends &ends : pair->bridges.ends) {
-        ++count[ends.i];
-        ++count[ends.j];
+        ++rows[ends.i].count;
+        ++rows[ends.j].count;
     }
     counts_only = true;
     comm->reverse_comm(this, 1);
     fill();
     counts_only = false;
     comm->reverse_comm_variable(this);
-    for (int i = local; i < static_cast<int>(count.size()); ++i) /* ghosts, and atoms that were added since */
-        count[i] = 0;
+    for (size_t i = local; i < rows.size(); ++i) /* ghosts, and atoms that were added since */
+        rows[i].count = 0;
     follow_moves();
     most = 0;
     for (int i = 0; i < atom->nlocal; ++i) {
-        most = std::max(most, count[i]);
+        most = std::max(most, rows[i].count);
         known_as[i] = atom->tag[i];
     }
     maxexchange = PARTNER * most + 2;
@@ -94,18 +92,16 @@ void FixBridges::follow_moves()
 {
     if (moves.empty())
         return;
-    std::vector<int> former(count.size());
+    std::vector<int> former(rows.size());
     std::iota(former.begin(), former.end(), 0);
     for (const auto &[from, to] : moves)
         former[to] = from < 0 ? -1 : former[from];
     moves.clear();
-    const std::vector<size_t> start_before = start;
-    const std::vector<int> count_before = count;
-    for (int i = 0; i < atom->nlocal; ++i) {
-        start[i] = former[i] < 0 ? 0 : start_before[former[i]];
-        count[i] = former[i] < 0 ? 0 : count_before[former[i]];
-    }
-    std::fill(count.begin() + atom->nlocal, count.end(), 0);
+    const std::vector<Row> before = rows;
+    std::fill(rows.begin(), rows.end(), Row());
+    for (int i = 0; i < atom->nlocal; ++i)
+        if (former[i] >= 0)
+            rows[i] = before[former[i]];
 }
 
 /* The same with the liquid in the bridges, so that what was drained may go on undrained, with the liquid that it has. */
@@ -119,17 +115,18 @@ void FixBridges::keep_volumes()
 /* Room for as many partners as were counted, and those that this rank knows. */
 void FixBridges::fill()
 {
-    size_t size = 0;
+    int size = 0;
     for (int i = 0; i < all; ++i) {
-        start[i] = size;
-        size += count[i];
-        count[i] = 0;
+        const int count = rows[i].count;
+        rows[i] = {size, 0};
+        size += count;
     }
     pool.resize(size);
     const int last = pair->bridges.count() - 1;
     for (int k = 0; k <= last; ++k) {
         const Ends &ends = pair->bridges.ends[k];
-        fetch(&pool[start[pair->bridges.ends[std::min(k + AHEAD, last)].j]]);
+        fetch(&rows[pair->bridges.ends[std::min(k + 2 * AHEAD, last)].j]);
+        fetch(&pool[rows[pair->bridges.ends[std::min(k + AHEAD, last)].j].first]);
         const Origin &of = pair->bridges.origin[k];
         const double held = !of.law->is_drained() ? of.held : volumes_wanted ? -pair->volume_of(k) : 0.0;
         add(ends.i, {of.tag2, k, held});
@@ -139,7 +136,8 @@ void FixBridges::fill()
 
 void FixBridges::add(int i, const Partner &partner)
 {
-    pool[start[i] + count[i]++] = partner;
+    Row &row = rows[i];
+    pool[row.first + row.count++] = partner;
 }
 
 void FixBridges::post_neighbor()
@@ -147,7 +145,7 @@ void FixBridges::post_neighbor()
     local = atom->nlocal;
     all = local + atom->nghost;
     for (int i = 0; i < local; ++i)
-        if (count[i] && known_as[i] != atom->tag[i])
+        if (rows[i].count && known_as[i] != atom->tag[i])
             error->one(FLERR, "Pair pendular: atom {} with a bridge became atom {}; use 'delete_atoms ... compress no'",
                 known_as[i], atom->tag[i]);
     if (pair)
@@ -156,8 +154,7 @@ void FixBridges::post_neighbor()
 
 void FixBridges::grow_arrays(int most_atoms)
 {
-    start.resize(most_atoms, 0);
-    count.resize(most_atoms, 0);
+    rows.resize(most_atoms);
     known_as.resize(most_atoms, 0);
 }
 
@@ -165,8 +162,7 @@ void FixBridges::copy_arrays(int i, int j, int)
 {
     if (is_behind)
         moves.emplace_back(i, j);
-    start[j] = start[i];
-    count[j] = count[i];
+    rows[j] = rows[i];
     known_as[j] = known_as[i];
 }
 
@@ -174,14 +170,14 @@ void FixBridges::set_arrays(int i)
 {
     if (is_behind)
         moves.emplace_back(-1, i);
-    count[i] = 0;
+    rows[i].count = 0;
 }
 
 int FixBridges::pack_reverse_comm_size(int n, int first)
 {
     int size = 0;
     for (int i = first; i < first + n; ++i)
-        size += 1 + PARTNER * count[i];
+        size += 1 + PARTNER * rows[i].count;
     return size;
 }
 
@@ -190,7 +186,7 @@ int FixBridges::pack_reverse_comm(int n, int first, double *buffer)
     int size = 0;
     for (int i = first; i < first + n; ++i) {
         if (counts_only)
-            buffer[size++] = count[i];
+            buffer[size++] = rows[i].count;
         else
             size += pack(i, buffer + size);
     }
@@ -203,7 +199,7 @@ void FixBridges::unpack_reverse_comm(int n, int *list, double *buffer)
     for (int k = 0; k < n; ++k) {
         const int i = list[k], sent = static_cast<int>(buffer[size++]);
         if (counts_only) {
-            count[i] += sent;
+            rows[i].count += sent;
             continue;
         }
         for (int m = 0; m < sent; ++m, size += PARTNER)
@@ -214,7 +210,7 @@ void FixBridges::unpack_reverse_comm(int n, int *list, double *buffer)
 int FixBridges::pack(int i, double *buffer) const
 {
     int size = 0;
-    buffer[size++] = count[i];
+    buffer[size++] = rows[i].count;
     for (const Partner *partner = begin(i); partner != end(i); ++partner) {
         buffer[size++] = ubuf(static_cast<int64_t>(partner->tag)).d;
         buffer[size++] = partner->held;
@@ -226,8 +222,7 @@ int FixBridges::unpack(int i, const double *buffer)
 {
     const int sent = static_cast<int>(buffer[1]);
     known_as[i] = static_cast<tagint>(ubuf(buffer[0]).i);
-    start[i] = pool.size();
-    count[i] = sent;
+    rows[i] = {static_cast<int>(pool.size()), sent};
     most = std::max(most, sent);
     maxexchange = std::max(maxexchange, PARTNER * sent + 2);
     for (int m = 0; m < sent; ++m) {
@@ -274,7 +269,7 @@ void FixBridges::unpack_restart(int i, int nth)
 
 int FixBridges::size_restart(int i)
 {
-    return 3 + PARTNER * count[i];
+    return 3 + PARTNER * rows[i].count;
 }
 
 int FixBridges::maxsize_restart()
@@ -287,7 +282,7 @@ int FixBridges::maxsize_restart()
 double FixBridges::memory_usage()
 {
     return static_cast<double>(pool.capacity()) * sizeof(Partner)
-        + static_cast<double>(start.capacity()) * (sizeof(size_t) + sizeof(int) + sizeof(tagint));
+        + static_cast<double>(rows.capacity()) * (sizeof(Row) + sizeof(tagint));
 }
 
 }    // namespace pendular_lammps

@@ -32,8 +32,8 @@ public:
     void fall_behind() { is_behind = true; }
 
     /* Bridges of a local atom, known before and after atoms change places. */
-    const Partner *begin(int i) const { return pool.data() + start[i]; }
-    const Partner *end(int i) const { return begin(i) + count[i]; }
+    const Partner *begin(int i) const { return pool.data() + rows[i].first; }
+    const Partner *end(int i) const { return begin(i) + rows[i].count; }
 
     int setmask() override;
     void init() override;
@@ -60,9 +60,13 @@ public:
     double memory_usage() override;
 
 private:
+    /* The partners of an atom in the pool. */
+    struct Row {
+        int first = 0, count = 0;
+    };
+
     std::vector<Partner> pool;
-    std::vector<size_t> start; /* of the partners of each atom in the pool */
-    std::vector<int> count;
+    std::vector<Row> rows;
     std::vector<LAMMPS_NS::tagint> known_as; /* id that the partners have of an atom */
     int most = 0; /* partners of an atom */
     int local = 0, all = 0; /* atoms when the list was built */

@@ -258,6 +258,7 @@ void PairPendular::take_list()
     check_box();
     std::swap(former, bridges);
     bridges.clear();
+    bridges.reserve(former.count());
     watched.clear();
     if (film.is_there())
         film.clear(atom->nlocal + atom->nghost);
@@ -281,24 +282,31 @@ void PairPendular::find_bridges()
         for (int i = first; i < std::min(first + TOGETHER, atom->nlocal); ++i) {
             const tagint own = atom->tag[i];
             for (const Partner *partner = history->begin(i); partner != history->end(i); ++partner) {
-                if (partner->tag < own || partner->tag > atom->map_tag_max)
+                if (partner->tag < own)
                     continue;
-                const int j = atom->map(partner->tag);
+                const int j = place_of(*partner);
                 if (j < 0)
                     continue;
                 fetch(x + 3L * j);
                 fetch(atom->radius + j);
                 fetch(atom->type + j);
-                if (partner->former >= 0) {
-                    fetch(&former.ends[partner->former]);
-                    fetch(&former.origin[partner->former]);
-                }
                 kept.push_back({i, j, partner});
             }
         }
         for (const Kept &bridge : kept)
             take_over(bridge);
     }
+}
+
+/* Of an image of a grain, -1 if there is none here: most are where they were. */
+int PairPendular::place_of(const Partner &partner) const
+{
+    if (partner.former >= 0) {
+        const int before = former.ends[partner.former].j;
+        if (before < atom->nlocal && atom->tag[before] == partner.tag)
+            return before;
+    }
+    return partner.tag > atom->map_tag_max ? -1 : atom->map(partner.tag);
 }
 
 double PairPendular::square_of_distance(int i, int j) const
@@ -312,15 +320,17 @@ double PairPendular::square_of_distance(int i, int j) const
 void PairPendular::find_watched(const NeighList &near, int i)
 {
     const double *radius = atom->radius;
+    const tagint *tags = atom->tag;
     const Partner *begin = history->begin(i), *end = history->end(i);
-    for (int k = 0; k < near.numneigh[i]; ++k) {
-        const int j = near.firstneigh[i][k] & NEIGHMASK;
+    const int *row = near.firstneigh[i], count = near.numneigh[i];
+    for (int k = 0; k < count; ++k) {
+        const int j = row[k] & NEIGHMASK;
+        const tagint tag = tags[j];
+        if (std::any_of(begin, end, [tag](const Partner &partner) { return partner.tag == tag; }))
+            continue;
         const double reach
             = radius[i] + radius[j] + law_of[atom->type[i]][atom->type[j]]->formation + neighbor->skin;
-        if (square_of_distance(i, j) > reach * reach)
-            continue;
-        const tagint tag = atom->tag[j];
-        if (std::none_of(begin, end, [tag](const Partner &partner) { return partner.tag == tag; }))
+        if (!(square_of_distance(i, j) > reach * reach))
             watch(i, j);
     }
 }

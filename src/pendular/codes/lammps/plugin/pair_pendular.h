@@ -82,6 +82,7 @@ private:
     bool forms_apart() const;
     LAMMPS_NS::Pair *list_lender() const;
     void find_bridges();
+    int place_of(const Partner &) const;
     void find_watched(const LAMMPS_NS::NeighList &near, int i);
     void take_over(const Kept &);
     void refresh();
