@@ -37,7 +37,7 @@ _THINNEST = 0.01  # of such a distance, where nodes that crowd do
 _COARSE_8, _COARSE_16, _COARSE_24 = 0.85, 0.42, 0.26
 WIDEST_ETA, _MOST_ETA = 2.6, 3.9  # of half an arc from its neck, and of any on its nodes
 _WIDEST_CUT = 1.5  # half width of a cut in t, where a neck is thin
-ROOM_FOR_24, ROOM_FOR_32 = 0.85, 0.6  # from which on so many leave one in the values, if not in the last rates
+ROOM_FOR_24 = 0.85  # from which on so many nodes leave one in the values, if not in the last rates
 HALF_A_TURN = 1.99  # η below which an arc makes less than half a turn
 _SMALL = 1e-4  # ω below which tan(ω/2)/(ω/2) is a series
 
