@@ -127,6 +127,12 @@ def ask_end_in_lane(room: Numbers, lane: int, held: Held) -> None:
 
 
 @kernel
+def ask_no_end(room: Numbers, lane: int, control: int) -> None:
+    """Ask for any rupture in a lane, of which nobody wants to know."""
+    ask_end_in_lane(room, lane, Held(_ANY, _ANY, control, 0.1))
+
+
+@kernel
 def ends_abreast(room: Numbers, control: int) -> None:
     """Find the ruptures of all lanes."""
     width, held = lanes(), _held_of(room, control)

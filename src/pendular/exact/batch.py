@@ -20,6 +20,7 @@ from .abreast import (
     answer_abreast,
     ask_end_in_lane,
     ask_in_lane,
+    ask_no_end,
     ask_nothing,
     asked_in_lane,
     cosines_in_lane,
@@ -85,7 +86,8 @@ __all__ = [
     "answer_rest",
     "arc_through",
     "ask_abreast",
-    "ask_end_in_lane",
+    "ask_end_abreast",
+    "ask_no_end",
     "ask_nothing",
     "cosines_in_lane",
     "draw",
@@ -174,6 +176,15 @@ def abreast_status(room: Numbers, lane: int, wanted: int, near: Arc, control: in
         if all_stored(arc, held, are_alike(held.first, held.second), False, row):
             return FOUND
     return straight_status(wanted, near, separation, held, row)
+
+
+@kernel
+def ask_end_abreast(room: Numbers, lane: int, task: Task) -> None:
+    """Ask for a rupture in a lane, if there can be one."""
+    if _can_hold(task):
+        ask_end_in_lane(room, lane, held_of(task))
+    else:
+        ask_no_end(room, lane, task.control)
 
 
 @kernel
@@ -284,8 +295,7 @@ def summit_range(
     width = lanes()
     for begin in range(start, stop, width):
         for lane in range(width):
-            held = held_of(task_of(questions[min(begin + lane, stop - 1)], control))
-            ask_end_in_lane(room, lane, held)
+            ask_end_abreast(room, lane, task_of(questions[min(begin + lane, stop - 1)], control))
         ends_abreast(room, control)
         for i in range(begin, min(begin + width, stop)):
             found = found_in_lane(room, i - begin)

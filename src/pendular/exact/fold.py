@@ -49,7 +49,7 @@ _FLAT = 1e-7  # what vanishes at the end, where the signs of the ladder are thos
 _LEAST_SECANT = 1e-5  # leap below which the rate is that of the one before: rounding, and ways back, would spoil it
 _CLEAR = 2.0  # change of the slope, over the ways back, that tells how fast it falls
 _APART = 0.25  # two leaps over the last one, where they foretell the next together
-_LAST, _LAST_WAY = 1e-12, 1e-11  # left to the fold, and way back to the curve, at its end
+_LAST, _LAST_WAY = 1e-15, 1e-11  # left to the fold, as it is foretold, and way back to the curve, at its end
 
 
 class Look(NamedTuple):

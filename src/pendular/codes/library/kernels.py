@@ -190,10 +190,10 @@ def ruptures(control: int, held: Floats, pairs: Floats, states: Floats, statuses
             i = min(begin + lane, statuses.size - 1)
             if is_fit(control, likely_separation(float(held[i]), pairs[i]), float(held[i]), pairs[i]):
                 task, length = question_of(control, 0.0, float(held[i]), pairs[i])
-                batch.ask_end_in_lane(abreast, lane, held_of(task))
+                batch.ask_end_abreast(abreast, lane, task)
                 statuses[i] = batch.OPEN
             else:
-                batch.ask_nothing(abreast, lane, control)
+                batch.ask_no_end(abreast, lane, control)
                 statuses[i] = BAD_INPUT
         batch.ends_abreast(abreast, control)
         for i in range(begin, min(begin + width, statuses.size)):
