@@ -1,6 +1,7 @@
 """Machine code in the package: a library that runs without Numba, made where a wheel is built."""
 
 import sys
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -89,6 +90,20 @@ def test_a_kernel_may_be_compiled_under_several_names(scaled):
         assert given[2].tolist() == [2.0, 16.0, 54.0]
     with pytest.raises(RuntimeError, match="none"):
         native._linked("none", codes[0])
+
+
+@COMPILER
+def test_threads_may_load_machine_code_at_once(scaled):
+    names = [f"kernel{i}" for i in range(4)]
+    codes = [objects.object_of(scaled, arguments(), name, objects.HOST) for name in names]
+
+    def answer(i):
+        given = arguments()
+        native._linked(names[i % 4], codes[i % 4])(*given)
+        return given[2].tolist()
+
+    with ThreadPoolExecutor(8) as pool:
+        assert list(pool.map(answer, range(200))) == 200 * [[2.0, 16.0, 54.0]]
 
 
 @COMPILER

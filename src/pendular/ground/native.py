@@ -161,6 +161,7 @@ def _processor() -> str:
 # -- linking ---------------------------------------------------------------------------------------------------------
 
 _linkages: list[Any] = []  # they own the code
+_linking = threading.Lock()  # there is one linker, and it wants another name for each
 
 
 @cache
@@ -182,8 +183,10 @@ def _linked(name: str, content: bytes) -> Native:
     import llvmlite.binding as llvm
 
     library = llvm.JITLibraryBuilder().add_object_img(content).add_current_process().export_symbol(name)
-    _linkages.append(library.link(_linker(), f"{name}.{len(_linkages)}"))
-    return Native(_linkages[-1][name], name)
+    with _linking:
+        linkage = library.link(_linker(), f"{name}.{len(_linkages)}")
+        _linkages.append(linkage)
+    return Native(linkage[name], name)
 
 
 @contextmanager
