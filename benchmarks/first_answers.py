@@ -8,7 +8,6 @@ such a wheel (``nox -s wheel`` builds one): ``pip install "pendular-...-py3-none
 
 import os
 import platform
-import re
 import socket
 import statistics
 import subprocess
@@ -23,6 +22,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import NamedTuple
 
+from benchmarks.sections import processor
 from pendular.ground import packaged
 
 ROOT = Path(__file__).parent.parent
@@ -223,13 +223,6 @@ def row(name: str, found: Found, goals: tuple[float, float], unit: str = "s") ->
     cold, warm = goals
     cells = shown(found.wheel, cold), shown(found.source, cold), f"{cold:g} {unit}", shown(found.warm, warm)
     return f"| {name} | {' | '.join(cells)} | {warm:g} {unit} |"
-
-
-def processor() -> str:
-    """Name of the processor."""
-    with Path("/proc/cpuinfo").open(encoding="utf-8") if Path("/proc/cpuinfo").exists() else open(os.devnull) as file:
-        named = re.search(r"model name\s*:\s*(.+)", file.read())
-    return named[1] if named else platform.processor() or platform.machine()
 
 
 def page(chosen: list[str]) -> str:

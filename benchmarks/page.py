@@ -7,7 +7,6 @@ A phone is a small window, and this machine with its processor throttled by the 
 """
 
 import os
-import platform
 import shutil
 import sys
 import threading
@@ -19,6 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from playwright.sync_api import Browser, CDPSession, Page, sync_playwright
 
+from benchmarks.sections import processor
 from pendular.front.explorer.files import page_files
 from pendular.front.explorer.server import server_of
 
@@ -226,12 +226,6 @@ def middle(visits: list[Visit], field: str) -> float:
 def seconds_words(visits: Visits, field: str) -> str:
     """Medians at each speed."""
     return " | ".join(f"{middle(found, field):.2f} s" for found in visits.values())
-
-
-def processor() -> str:
-    """Name of the processor."""
-    names = [line for line in Path("/proc/cpuinfo").read_text().splitlines() if line.startswith("model name")]
-    return names[0].partition(": ")[2] if names else platform.machine()
 
 
 def speed_words(slower: int) -> str:

@@ -3,9 +3,8 @@
 import os
 import platform
 import sys
+from importlib.metadata import version
 from pathlib import Path
-
-import numba
 
 PAGE = Path(__file__).parent.parent / "docs" / "speed.md"
 _BEGIN, _END = "<!-- written by python -m {name} -->", "<!-- end of {name} -->"
@@ -25,13 +24,16 @@ def put(name: str, text: str) -> None:
     PAGE.write_text(page, encoding="utf-8")
 
 
+def processor() -> str:
+    """Name of the processor."""
+    try:
+        with open("/proc/cpuinfo", encoding="utf-8") as lines:
+            return next(line.split(":", 1)[1].strip() for line in lines if line.startswith("model name"))
+    except (OSError, StopIteration):
+        return platform.processor() or platform.machine()
+
+
 def machine() -> str:
     """The machine in words."""
-    name = platform.processor() or platform.machine()
-    try:
-        with open("/proc/cpuinfo", encoding="ascii") as lines:
-            name = next(line.split(":", 1)[1].strip() for line in lines if line.startswith("model name"))
-    except (OSError, StopIteration):
-        pass
     load = f", load {os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else ""
-    return f"{name}, {os.cpu_count()} cores{load}, Numba {numba.__version__}"
+    return f"{processor()}, {os.cpu_count()} cores{load}, Numba {version('numba')}"
