@@ -381,21 +381,26 @@ def test_grains_have_one_bridge_with_facets_and_boxes_in_a_direction(folder):
         for i in range(count):
             order = [n for n in np.argsort(lengths[:, i], kind="stable") if lengths[n, i] < 2.0 * radius]
             unit = ways[:, i] / lengths[:, i, None]
-            shown = [
-                n
-                for n in order
-                if all(unit[n] @ unit[m] <= math.sqrt(0.5) or lengths[m, i] >= lengths[n, i] for m in order)
-            ]
-            kept = []
-            for n in shown:
+
+            def at_one_point(n, m, unit=unit, near=lengths[:, i]):
+                return abs(near[n] - near[m]) <= 1e-9 * radius and np.allclose(unit[n], unit[m], atol=1e-9)
+
+            def shown(n, unit=unit, near=lengths[:, i], order=order, at_one_point=at_one_point):
+                """The part that has the bridge of this one: the nearest of those beside it, unless that is hidden too."""
+                beside = (m for m in order if unit[n] @ unit[m] > math.sqrt(0.5) and near[m] < near[n])
+                nearest = next((m for m in beside if not at_one_point(n, m)), None)
+                return n if nearest is None else shown(nearest)
+
+            had, kept = {shown(n) for n in walls[i] if n in order}, []
+            for n in order:
+                if shown(n) != n or any(at_one_point(n, m) for m in kept):
+                    continue
                 gap = lengths[n, i] - radii[i]
-                had = any(unit[n] @ way > math.sqrt(0.5) for way in walls[i])
-                force = float(table.force(gap, suction, radii[i], math.inf, TENSION)) if gap <= 0.0 or had else 0.0
+                is_wet = gap <= 0.0 or any(at_one_point(n, m) for m in had)
+                force = float(table.force(gap, suction, radii[i], math.inf, TENSION)) if is_wet else 0.0
                 forces[i] += force * unit[n]
-                if force and not any(np.allclose(unit[n], way, atol=1e-9) for way in kept):
-                    kept.append(unit[n])
-                elif force:
-                    forces[i] -= force * unit[n]  # the same point of two facets
+                if force:
+                    kept.append(n)
             walls[i] = kept
             most = max(most, len(kept))
         np.testing.assert_allclose(step["forces"], forces, rtol=0.0, atol=1e-7 * np.abs(forces).max())

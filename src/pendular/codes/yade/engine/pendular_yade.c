@@ -228,30 +228,38 @@ static void move_bridge(pendular_yade_heap *heap, size_t from, size_t to, double
     heap->is_hidden[from] = 1;
 }
 
+/* Of pairs with one sphere that lie within 45 degrees of this one, itself too, the nearest; of equals the first. */
+static size_t nearest_beside(const pendular_yade_heap *heap, size_t n, const int32_t *with, size_t count)
+{
+    const double nearly = 0.70710678118654752;
+    double towards[3], least = apart(heap, n, towards);
+    size_t nearest = n, k;
+    for (k = 0; k < count; ++k) {
+        const size_t m = with[k];
+        double other[3], its = apart(heap, m, other);
+        if ((its < least || (its == least && m < nearest)) && dot(towards, other) > nearly) {
+            least = its;
+            nearest = m;
+        }
+    }
+    return nearest;
+}
+
 /* Of the facets, boxes and walls near a sphere that lie within 45 degrees of each other the nearest has the bridge. */
 void pendular_yade_settle(pendular_yade_heap *heap, double *film)
 {
-    const double nearly = 0.70710678118654752;
-    size_t begin, end, a, b;
+    size_t begin, end, k;
     memset(heap->is_hidden, 0, heap->pairs);
     for (begin = 0; begin < heap->surfaces; begin = end) {
-        for (end = begin; end < heap->surfaces
-             && heap->first[heap->at_surfaces[end]] == heap->first[heap->at_surfaces[begin]];)
+        const int32_t *with = heap->at_surfaces + begin;
+        for (end = begin; end < heap->surfaces && heap->first[heap->at_surfaces[end]] == heap->first[with[0]];)
             ++end;
-        for (a = begin; a < end; ++a) {
-            const size_t n = heap->at_surfaces[a];
-            double towards[3], gap = apart(heap, n, towards), least = gap;
-            size_t nearest = n;
-            for (b = begin; b < end; ++b) {
-                const size_t m = heap->at_surfaces[b];
-                double other[3], its = apart(heap, m, other);
-                if ((its < least || (its == least && m < nearest)) && dot(towards, other) > nearly) {
-                    least = its;
-                    nearest = m;
-                }
-            }
-            if (nearest != n)
-                move_bridge(heap, n, nearest, film);
+        for (k = 0; k < end - begin; ++k) {
+            size_t to = with[k], next; /* the nearest may be hidden by a third, but not for ever: it comes nearer */
+            while ((next = nearest_beside(heap, to, with, end - begin)) != to)
+                to = next;
+            if (to != (size_t)with[k])
+                move_bridge(heap, with[k], to, film);
         }
     }
 }
