@@ -386,7 +386,7 @@ def test_grains_have_one_bridge_with_facets_and_boxes_in_a_direction(folder):
                 return abs(near[n] - near[m]) <= 1e-9 * radius and np.allclose(unit[n], unit[m], atol=1e-9)
 
             def shown(n, unit=unit, near=lengths[:, i], order=order, at_one_point=at_one_point):
-                """The part that has the bridge of this one: the nearest of those beside it, unless that is hidden too."""
+                """The part that has the bridge of this one: the nearest beside it, unless that is hidden too."""
                 beside = (m for m in order if unit[n] @ unit[m] > math.sqrt(0.5) and near[m] < near[n])
                 nearest = next((m for m in beside if not at_one_point(n, m)), None)
                 return n if nearest is None else shown(nearest)
