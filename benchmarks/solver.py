@@ -114,8 +114,7 @@ def left_open(sample: Sample, entry: Callable[..., None], *given: int) -> float:
     """Share of the rows that an entry leaves to the rest of the solver."""
     control, rows = questions_of(sample)
     states, statuses = np.empty((len(rows), len(State._fields))), np.empty(len(rows), np.int8)
-    room = (batch.ABREAST,) if entry is batch.stable_range else ()
-    batch.over_rows(entry, len(rows), 4096, *given, control, rows, states, statuses, *room)
+    batch.over_rows(entry, len(rows), 4096, *given, control, rows, states, statuses, batch.ABREAST)
     return float(np.mean(statuses == batch.OPEN))
 
 

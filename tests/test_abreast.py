@@ -10,7 +10,7 @@ from pendular.exact.direct import _change_at_suction, start_of
 from pendular.exact.equations import SUCTION, VOLUME, Held
 from pendular.exact.stability import ladder_of
 from pendular.exact.suction import _directions_of, _step_to, stand_of
-from pendular.exact.volume import _target
+from pendular.exact.volume import volume_target
 from pendular.ground.rows import by_machine_code
 from test_direct import random_arcs
 
@@ -51,7 +51,8 @@ def test_the_numbers_of_suction_are_those_of_the_equations():
 
 @pytest.mark.parametrize("excess", [1e-12, -1e-6, 0.01, -0.5, 0.9])
 def test_the_logarithm_that_corrects_a_volume(excess):
-    assert _target(excess) == pytest.approx(-(1.0 + excess) * np.log1p(excess), rel=1e-3 if abs(excess) > 0.1 else 1e-9)
+    exactly = -(1.0 + excess) * np.log1p(excess)
+    assert volume_target(excess) == pytest.approx(exactly, rel=1e-3 if abs(excess) > 0.1 else 1e-9)
 
 
 def questions(count, control):
@@ -91,6 +92,27 @@ def test_an_answer_does_not_depend_on_those_beside_it(control, fields):
         )
         assert one.force[0] == whole[i]
     assert 0.3 < np.mean(whole > 0.0) < 1.0
+
+
+@pytest.mark.needs("numba")
+@pytest.mark.parametrize("control", ["suction", "volume"])
+def test_a_rupture_does_not_depend_on_those_beside_it(control):
+    print("seed", SEED)
+    _, held, radius, angles = questions(203, control)
+
+    def ruptures(which):
+        pair = pl.Pair((1.0, radius[which]), tuple(angle[which] for angle in angles))
+        with by_machine_code():
+            return pl.rupture(pair, **{control: held[which]}, liquid=UNIT)
+
+    whole = ruptures(np.arange(held.size))
+    order = np.random.default_rng(SEED).permutation(held.size)[:101]
+    part = ruptures(order)
+    for name in ("separation", "force", "suction", "liquid_gas_area"):
+        np.testing.assert_array_equal(getattr(whole, name)[order], getattr(part, name))
+    for i in range(0, held.size, 40):
+        np.testing.assert_array_equal(ruptures(np.array([i])).separation, whole.separation[i : i + 1])
+    assert np.mean(whole.exists) > 0.5
 
 
 @pytest.mark.needs("numba")

@@ -8,7 +8,10 @@ import pytest
 from pendular.exact import batch
 from pendular.exact.arc import (
     LEAST_ROOM,
+    W48,
+    X48,
     Arc,
+    crowded_at,
     force_on,
     force_rates_on,
     half_from_neck,
@@ -18,7 +21,8 @@ from pendular.exact.arc import (
     system_on,
 )
 from pendular.exact.equations import SUCTION, VOLUME, Held, force_of, system_at
-from pendular.exact.meridian import measure_arc, tensor_of
+from pendular.exact.fold import extrema_on
+from pendular.exact.meridian import extreme_phases, measure_arc, tensor_of
 from pendular.exact.solids import solid_of
 from pendular.exact.state import State
 
@@ -64,6 +68,46 @@ def test_equations_of_an_arc_are_those_of_its_meridian():
         scale = np.maximum(scale, np.abs(known))
         np.testing.assert_allclose(found / scale, known / scale, rtol=0.0, atol=2e-12)
         assert system.first.radius == pytest.approx(other.first.radius, rel=1e-12)
+
+
+def any_arcs(count, thinnest):
+    """Arcs of up to more than half a turn, with necks down to so much of their width."""
+    rng = np.random.default_rng(SEED)
+    while count:
+        half = 10.0 ** rng.uniform(-3.0, 1.0)
+        arc = Arc(half * 10.0 ** rng.uniform(-2.0, 1.0), rng.uniform(-2.0, 2.0), half, rng.uniform(-3.8, 3.8))
+        if room_of(arc) > thinnest:
+            count -= 1
+            yield arc, Held(*[solid_of(10.0 ** rng.uniform(-2.0, 0.0), 1.0) for _ in range(2)], VOLUME, 1.0)
+
+
+def test_nodes_that_crowd_tell_the_equations_of_thin_arcs():
+    print("seed", SEED)
+    thin = 0
+    for arc, held in any_arcs(300, 0.02):
+        thin += room_of(arc) < LEAST_ROOM
+        found = system_on(arc, held, crowded_at(arc, X48, W48, True), True)
+        without = system_on(arc, held, crowded_at(arc, X48, W48, False), False)
+        known = system_at(meridian_of(arc), held, True, True)
+        size = max(arc.half_width, known.first.radius, known.second.radius)
+        for name, unit in (("separation", size), ("length", size), ("volume", size**3)):
+            scale = unit + abs(getattr(known, name).value)
+            assert getattr(found, name).value == pytest.approx(getattr(known, name).value, abs=3e-11 * scale)
+        np.testing.assert_allclose(without.length.rates, found.length.rates, rtol=1e-9, atol=1e-11 * size)
+        sums, measured = sums_of(arc, room_of(arc), True, True), tensor_of(meridian_of(arc))
+        area = np.pi * arc.half_width**2
+        np.testing.assert_allclose([area * sums.across, 2.0 * area * sums.axial], measured, rtol=1e-9)
+    assert thin > 30
+
+
+def test_extrema_are_the_roots_of_a_square_polynomial():
+    print("seed", SEED)
+    seen = set()
+    for arc, _held in any_arcs(2000, 0.0):
+        necks, bulges = extreme_phases(meridian_of(arc))
+        assert extrema_on(arc) == necks + bulges
+        seen.add(necks + bulges)
+    assert seen == {0, 1, 2}
 
 
 def test_half_an_arc_from_its_neck_is_half_of_the_whole():
@@ -116,9 +160,8 @@ def test_ruptures_by_leaps_are_those_of_the_walk(control, alike):
     rows = random_rows(3000, control, alike)
     found, statuses = batch.answer(batch.RUPTURE, control, rows)
     left, open_rows = np.empty((len(rows), len(State._fields))), np.empty(len(rows), np.int8)
-    batch.over_rows(
-        batch.summit_range, len(rows), 1024, batch.RUPTURE, batch.BRANCH_ENDS, control, rows, left, open_rows
-    )
+    asking = (batch.RUPTURE, batch.BRANCH_ENDS, control, rows, left, open_rows, batch.ABREAST)
+    batch.over_rows(batch.summit_range, len(rows), 1024, *asking)
     walked, by_walk = np.empty_like(left), np.empty_like(open_rows)
     asking = (batch.RUPTURE, batch.BRANCH_ENDS, control, rows, walked, by_walk)
     batch.over_rows(batch.end_range, len(rows), 1024, *asking)

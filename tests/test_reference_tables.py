@@ -28,7 +28,7 @@ def assert_close(measured, expected, tolerance):
 def test_rupture_at_constant_suction():
     name = "suction_fold"
     r = pl.rupture(equal_spheres(name), suction=column(name, "suction"), liquid=UNIT)
-    assert_close(r.separation, column(name, "gap"), 2e-15)  # measured 1e-15
+    assert_close(r.separation, column(name, "gap"), 4e-15)  # a last digit of the arc is some of D: 3e-15 in lanes
     assert_close(r.volume, column(name, "volume"), 1e-11)  # the fold is flat in D: 5e-12 at H* = 1e12
     assert_close(r.force / (2.0 * np.pi), column(name, "force"), 1e-11)
     assert_close(r.half_filling_angle[:, 0], column(name, "filling_angle"), 1e-11)

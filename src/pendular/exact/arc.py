@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 from ..ground.compile import constants, kernel, summing_kernel
 from ..ground.lanes import choose
 from .algebra import Four
-from .equations import Held, System, system_of
-from .meridian import End, Row
+from .crowd import sum_crowded
+from .equations import SUCTION, Held, System, system_of
+from .meridian import End, Row, tensor_of
 from .quadrature import Cut, node_at, point_at
 
 Nodes = NDArray[np.float64]
@@ -32,10 +33,11 @@ X96, W96 = map(constants, np.polynomial.legendre.leggauss(96))
 # Distance of the nearest singular point from the panel, over its half width, from which on so many nodes leave an
 # error of rounding, e = ρ^-2n with ρ = t + √(1 + t²); or one that a Newton step far from its end does not see.
 _FINE_8, _FINE_16, _FINE_24, _FINE_32, _FINE_48, _FINE_64, LEAST_ROOM = 6.1, 1.61, 1.0, 0.665, 0.435, 0.325, 0.213
+_THINNEST = 0.01  # of such a distance, where nodes that crowd do
 _COARSE_8, _COARSE_16, _COARSE_24 = 0.85, 0.42, 0.26
-WIDEST_ETA = 2.6
+WIDEST_ETA, _MOST_ETA = 2.6, 3.9  # of half an arc from its neck, and of any on its nodes
 _WIDEST_CUT = 1.5  # half width of a cut in t, where a neck is thin
-ROOM_FOR_24, ROOM_FOR_32 = 0.85, 0.6  # from which on so many leave one in the values, if not in the last rates
+ROOM_FOR_24 = 0.85  # from which on so many nodes leave one in the values, if not in the last rates
 HALF_A_TURN = 1.99  # η below which an arc makes less than half a turn
 _SMALL = 1e-4  # ω below which tan(ω/2)/(ω/2) is a series
 
@@ -88,7 +90,7 @@ def room_of(arc: Arc) -> float:
 @kernel
 def is_fit(arc: Arc) -> bool:
     """Whether the sums over an arc are exact to rounding."""
-    return arc.radius > 0.0 and abs(arc.eta) < WIDEST_ETA and room_of(arc) > LEAST_ROOM
+    return arc.radius > 0.0 and abs(arc.eta) < _MOST_ETA and room_of(arc) > _THINNEST
 
 
 @kernel
@@ -237,8 +239,15 @@ def half_from_neck(arc: Arc) -> Half:
 @kernel
 def sums_of(arc: Arc, room: float, fine: bool, with_all: bool) -> Sums:
     """Sums over the panel, whose singular points are as far away as `room_of` tells."""
-    x, weight = _nodes_for(room, fine)
-    return sums_at(arc, x, weight, with_all)
+    if room > LEAST_ROOM:
+        x, weight = _nodes_for(room, fine)
+        return sums_at(arc, x, weight, with_all)
+    sums = crowded_at(arc, X48, W48, with_all)
+    if not with_all:
+        return sums
+    across, axial = tensor_of(meridian_of(arc))
+    area = math.pi * arc.half_width * arc.half_width
+    return _with_orientation(sums, across / area, 0.5 * axial / area)
 
 
 @kernel
@@ -248,6 +257,20 @@ def sums_at(arc: Arc, x: Nodes, weight: Nodes, with_all: bool) -> Sums:
     if with_all:
         return _sum_all(real, real * arc.slope, h, x, weight)
     return _sum_length(real, real * arc.slope, h, x, weight)
+
+
+@kernel
+def crowded_at(arc: Arc, x: Nodes, weight: Nodes, with_volume: bool) -> Sums:
+    """Sums over so many nodes that crowd where the panel is thin, without its orientation."""
+    real = arc.radius / arc.half_width
+    s = sum_crowded(real, real * arc.slope, arc.eta, x, weight, with_volume)
+    nothing = 0.0 * real  # in lanes, if that is in lanes
+    return Sums(s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7], nothing, nothing)
+
+
+@kernel
+def _with_orientation(s: Sums, across: float, axial: float) -> Sums:
+    return Sums(s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7], across, axial)
 
 
 @kernel
@@ -340,6 +363,14 @@ def arc_after(arc: Arc, change: Four, step: float) -> Arc:
         arc.half_width * ((1.0 + by_width) / (1.0 - by_width)),
         arc.eta + step * change.turn,
     )
+
+
+@kernel
+def kept(arc: Arc, held: Held) -> Arc:
+    """The arc with the suction that is held."""
+    if held.control == SUCTION:
+        return Arc(arc.radius, arc.slope, arc.half_width, held.value * arc.half_width)
+    return arc
 
 
 @kernel

@@ -18,10 +18,13 @@ from ..ground.rows import Own, entry, over_rows
 from .abreast import (
     ROOM_ABREAST,
     answer_abreast,
+    ask_end_in_lane,
     ask_in_lane,
+    ask_no_end,
     ask_nothing,
     asked_in_lane,
     cosines_in_lane,
+    ends_abreast,
     found_in_lane,
 )
 from .algebra import Four
@@ -54,7 +57,7 @@ from .nucleus import nucleus_stored
 from .search import are_alike, are_planes, is_symmetric
 from .solids import Solid
 from .state import HALF_LENGTH, STIFFNESS, State
-from .summit import summit_stored
+from .summit import end_stored, summit_stored
 from .tracing import trace
 
 __all__ = [
@@ -83,12 +86,17 @@ __all__ = [
     "answer_rest",
     "arc_through",
     "ask_abreast",
+    "ask_end_abreast",
+    "ask_no_end",
     "ask_nothing",
     "cosines_in_lane",
     "draw",
+    "ends_abreast",
+    "found_in_lane",
     "lay",
     "rest_stored",
     "straight_status",
+    "summit_status",
 ]
 
 Rows = NDArray[np.float64]
@@ -171,11 +179,25 @@ def abreast_status(room: Numbers, lane: int, wanted: int, near: Arc, control: in
 
 
 @kernel
-def _summit_stored(asked: int, limit: int, task: Task, row: Rows) -> int:
-    """Store a rupture that is beyond doubt, or tell that no bridge is beyond it; else OPEN."""
+def ask_end_abreast(room: Numbers, lane: int, task: Task) -> None:
+    """Ask for a rupture in a lane, if there can be one."""
+    if _can_hold(task):
+        ask_end_in_lane(room, lane, held_of(task))
+    else:
+        ask_no_end(room, lane, task.control)
+
+
+@kernel
+def summit_status(asked: int, limit: int, task: Task, found: Arc, row: Rows) -> int:
+    """Store a rupture that is beyond doubt, or tell that no bridge is beyond it; else OPEN.
+
+    The arc found there is taken if its radius is above 0.
+    """
     if not _can_hold(task):
         return NO_BRIDGE
-    if not summit_stored(held_of(task), is_symmetric(task), limit, row):
+    held, symmetric = held_of(task), is_symmetric(task)
+    is_stored = found.radius > 0.0 and end_stored(found, FOLD, held, symmetric, row)
+    if not (is_stored or summit_stored(held, symmetric, limit, row)):
         return OPEN
     if asked == RUPTURE:
         return FOUND if row[0] >= 0.0 else NO_BRIDGE
@@ -224,7 +246,7 @@ def _bridge_stored(asked: int, limit: int, task: Task, nodes: Rows, row: Rows) -
 @kernel
 def rest_stored(asked: int, limit: int, task: Task, nodes: Rows, row: Rows) -> int:
     """Store the answer to a question that the straight way has left open, by each part after those that are sooner."""
-    status = _summit_stored(asked, limit, task, row) if asked in (STABLE, RUPTURE) else OPEN
+    status = summit_status(asked, limit, task, NOWHERE, row) if asked in (STABLE, RUPTURE) else OPEN
     if status == OPEN and asked in (STABLE, RUPTURE):
         status = _end_stored(asked, limit, task, row)
     if status == OPEN:
@@ -259,14 +281,27 @@ def stable_range(
 
 @entry(plain_cost=4e-3, patience=4.0)
 def summit_range(
-    asked: int, limit: int, control: int, questions: Rows, states: Rows, statuses: Statuses, start: int, stop: int
+    asked: int,
+    limit: int,
+    control: int,
+    questions: Rows,
+    states: Rows,
+    statuses: Statuses,
+    room: Numbers,
+    start: int,
+    stop: int,
 ) -> None:
     """Ruptures of the rows that are beyond doubt, and bridges that are asked beyond them; others stay OPEN."""
-    for i in range(start, stop):
-        status = _summit_stored(asked, limit, task_of(questions[i], control), states[i])
-        statuses[i] = status
-        if status != FOUND:
-            states[i, :] = math.nan
+    width = lanes()
+    for begin in range(start, stop, width):
+        for lane in range(width):
+            ask_end_abreast(room, lane, task_of(questions[min(begin + lane, stop - 1)], control))
+        ends_abreast(room, control)
+        for i in range(begin, min(begin + width, stop)):
+            found = found_in_lane(room, i - begin)
+            statuses[i] = summit_status(asked, limit, task_of(questions[i], control), found, states[i])
+            if statuses[i] != FOUND:
+                states[i, :] = math.nan
 
 
 @entry(plain_cost=5e-3, patience=4.0)
@@ -331,7 +366,7 @@ def answer_rest(asked: int, control: int, questions: Rows, limit: int) -> tuple[
 def _answer_open(asked: int, control: int, questions: Rows, limit: int, states: Rows, statuses: Statuses) -> None:
     asking = (questions, states, statuses)
     if asked in (STABLE, RUPTURE):
-        _over_open(summit_range, (asked, limit, control), *asking)
+        _over_open(summit_range, (asked, limit, control), *asking, ABREAST)
         _over_open(end_range, (asked, limit, control), *asking)
     _over_open(bridge_range, (asked, limit, control), *asking, Own(_room_for_nodes))
 

@@ -19,6 +19,7 @@ from .arc import (
     force_rates_on,
     half_length_of,
     is_fit,
+    kept,
     meridian_of,
     ratio_of,
     room_of,
@@ -89,14 +90,6 @@ def _change_at_suction(system: System, eta: float, separation: float) -> Four:
         by_width,
         eta * by_width,
     )
-
-
-@kernel
-def kept(arc: Arc, held: Held) -> Arc:
-    """The arc with the suction that is held."""
-    if held.control == SUCTION:
-        return Arc(arc.radius, arc.slope, arc.half_width, held.value * arc.half_width)
-    return arc
 
 
 @kernel

@@ -10,8 +10,11 @@ from typing import NamedTuple
 from ..ground.compile import kernel
 from ..ground.lanes import choose, every
 from .algebra import Four
+from .arc import NOWHERE, Arc
 from .equations import SUCTION, Held
 from .solids import Solid
+
+Table = tuple[tuple[float, ...], ...]
 
 _LARGEST_SINE = 0.97  # of a half-filling angle
 _LEAST_COSINE = 0.7  # of the slope of the chord between the contact circles
@@ -256,29 +259,127 @@ _RUPTURE_FIT = (
     (0.0, 0.0, 0.0, 0.0, 0.0052, 0.0222),
     (0.0, 0.0, 0.0, 0.0, 0.0, -0.0655),
 )
+# The arc there in the same products, fitted to 60000 others: a and τ over V^(1/3), η, and the logarithm of how fast
+# dD/ds over τ falls along the curve of bridges; and m in these six times the sign of θ1-θ2, times θ1-θ2 and times κ.
+_AT_RUPTURE_RADIUS = (
+    (0.2509, 0.0984, 0.1442, 0.0936, 0.0118, 0.0044),
+    (0.0, 0.0228, -0.0542, -0.0158, 0.0024, -0.0006),
+    (0.0, 0.0, -0.0854, 0.0748, -0.025, -0.0088),
+    (0.0, 0.0, 0.0, -0.028, -0.1014, -0.1283),
+    (0.0, 0.0, 0.0, 0.0, -0.0033, -0.0026),
+    (0.0, 0.0, 0.0, 0.0, 0.0, 0.0108),
+)
+_AT_RUPTURE_WIDTH = (
+    (1.2107, -0.8479, -0.2494, 0.015, -0.0542, -0.0456),
+    (0.0, 0.4254, -0.2347, 0.1439, 0.0101, -0.0208),
+    (0.0, 0.0, 0.2641, 0.3009, 0.1228, 0.0439),
+    (0.0, 0.0, 0.0, -0.0179, -0.2196, -0.1728),
+    (0.0, 0.0, 0.0, 0.0, 0.0123, 0.0194),
+    (0.0, 0.0, 0.0, 0.0, 0.0, -0.0627),
+)
+_AT_RUPTURE_ETA = (
+    (0.2268, -1.0912, 0.7566, -1.21, 0.1212, 0.1423),
+    (0.0, -0.1252, 0.3997, 0.1031, -0.0381, -0.0087),
+    (0.0, 0.0, -0.3122, -0.9511, -0.2445, -0.0851),
+    (0.0, 0.0, 0.0, 0.2537, 0.7753, 1.0457),
+    (0.0, 0.0, 0.0, 0.0, -0.0255, -0.0408),
+    (0.0, 0.0, 0.0, 0.0, 0.0, 0.1177),
+)
+_AT_RUPTURE_FALL = (
+    (-2.0734, 4.029, -1.5674, 1.2115, -0.0604, -0.3882),
+    (0.0, -1.4842, 1.0155, -0.4728, 0.1761, 0.3803),
+    (0.0, 0.0, -0.5159, 1.2585, 0.0649, 0.0176),
+    (0.0, 0.0, 0.0, -0.8708, -0.4618, -0.9598),
+    (0.0, 0.0, 0.0, 0.0, -0.0863, -0.0712),
+    (0.0, 0.0, 0.0, 0.0, 0.0, -0.1484),
+)
+_AT_RUPTURE_SLOPE = (
+    (0.4499, -0.1072, 1.0606, -0.3042, -0.0662, -0.1672),
+    (1.0606, -1.1201, -0.0195, -0.5937, 0.0619, 0.2945),
+    (0.2325, -0.1869, -0.1672, 1.5244, 0.0239, 0.0619),
+)
+_LARGEST_FITTED = 1.3  # V^(1/3)/R̄
+_LEAST_FITTED = 0.1  # a and τ over V^(1/3)
+_WIDEST_FITTED = 2.0  # |η|
+
+
+class _Terms(NamedTuple):
+    """What ruptures at a volume are fitted in."""
+
+    one: float
+    mean_angle: float
+    apart: float  # the angles
+    size: float  # V^(1/3)/R̄
+    unlike: float  # κ²
+    aligned: float  # (θ1-θ2)κ
+
+
+@kernel
+def _terms_of(held: Held, difference: float, kappa: float, size: float) -> _Terms:
+    one, other = held.first, held.second
+    return _Terms(
+        1.0,
+        0.5 * (one.contact_angle + other.contact_angle),
+        abs(difference),
+        size * 0.5 * (one.curvature + other.curvature),
+        kappa * kappa,
+        difference * kappa,
+    )
+
+
+@kernel
+def _kappa_of(held: Held) -> float:
+    """(k1-k2)/(k1+k2)."""
+    total = held.first.curvature + held.second.curvature
+    return (held.first.curvature - held.second.curvature) / total if total > 0.0 else 0.0
+
+
+@kernel
+def _fitted(table: Table, terms: _Terms) -> float:
+    """Sum of the products of two terms."""
+    total = 0.0
+    for i in range(6):
+        for j in range(i, 6):
+            total += table[i][j] * terms[i] * terms[j]
+    return total
+
+
+@kernel
+def _size_of(held: Held) -> float:
+    """V^(1/3)."""
+    return (math.pi * held.value) ** (1.0 / 3.0)
 
 
 @kernel
 def rupture_at_volume(held: Held) -> float:
     """Rupture distance at a volume, within about a fifth for angles up to 90° and V up to R̄³."""
-    one, other = held.first, held.second
-    mean = 0.5 * (one.curvature + other.curvature)
-    size = (math.pi * held.value) ** (1.0 / 3.0)
-    difference = one.contact_angle - other.contact_angle
-    kappa = 0.5 * (one.curvature - other.curvature) / mean if mean > 0.0 else 0.0
-    terms = (
-        1.0,
-        0.5 * (one.contact_angle + other.contact_angle),
-        abs(difference),
-        size * mean,
-        kappa * kappa,
-        difference * kappa,
+    size, difference = _size_of(held), held.first.contact_angle - held.second.contact_angle
+    return size * math.exp(_fitted(_RUPTURE_FIT, _terms_of(held, difference, _kappa_of(held), size)))
+
+
+@kernel
+def arc_at_rupture(held: Held) -> tuple[Arc, float]:
+    """The arc at rupture at a volume, about, and how fast dD/ds over τ falls there.
+
+    Its radius is 0 where none was fitted.
+    """
+    size, difference, kappa = _size_of(held), held.first.contact_angle - held.second.contact_angle, _kappa_of(held)
+    terms = _terms_of(held, difference, kappa, size)
+    if min(held.first.cos_angle, held.second.cos_angle) < -1e-9 or terms.size > _LARGEST_FITTED:
+        return NOWHERE, 0.0
+    sign = (1.0 if difference > 0.0 else 0.0) - (1.0 if difference < 0.0 else 0.0)
+    slope = 0.0
+    for j in range(6):
+        slope += terms[j] * (
+            _AT_RUPTURE_SLOPE[0][j] * sign + _AT_RUPTURE_SLOPE[1][j] * difference + _AT_RUPTURE_SLOPE[2][j] * kappa
+        )
+    arc = Arc(
+        size * max(_fitted(_AT_RUPTURE_RADIUS, terms), _LEAST_FITTED),
+        slope,
+        size * max(_fitted(_AT_RUPTURE_WIDTH, terms), _LEAST_FITTED),
+        max(-_WIDEST_FITTED, min(_WIDEST_FITTED, _fitted(_AT_RUPTURE_ETA, terms))),
     )
-    exponent = 0.0
-    for i in range(6):
-        for j in range(i, 6):
-            exponent += _RUPTURE_FIT[i][j] * terms[i] * terms[j]
-    return size * math.exp(exponent)
+    return arc, math.exp(_fitted(_AT_RUPTURE_FALL, terms))
 
 
 @kernel

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..ground.compile import constants, kernel, summing_kernel
+from ..ground.lanes import choose
 
 Nodes = NDArray[np.float64]
 
@@ -146,18 +147,26 @@ def _sum_tensor(real: float, imag: float, eta: float, cut: Cut, x: Nodes, weight
 
 
 @kernel
+def branch_points(real: float, imag: float, h: float) -> tuple[float, float]:
+    """The branch points of Y, pole ± i·spread, at the zeros of ζ: v = iζm/(1 + ηζm/2), and its conjugate; h = η/2.
+
+    Far from the panel, or of a sphere, which has none, they do not matter: others are given.
+    """
+    cr, ci = 1.0 + h * real, h * imag
+    square, aside = cr * cr + ci * ci, abs(real * cr + imag * ci)
+    are_near = aside < _FARTHEST_POLE * square
+    inverse = 1.0 / choose(are_near, square, 1.0)
+    pole = choose(are_near, (real * ci - imag * cr) * inverse, 0.0)
+    return pole, choose(are_near, max(aside * inverse, 1e-14), _FARTHEST_POLE)
+
+
+@kernel
 def cuts_of(real: float, imag: float, eta: float) -> tuple[Cut, float, int]:
     """First cut of a panel, growth of e^t from one to the next, number of cuts.
 
-    The substitution smooths the branch points of Y, at the zeros of ζ: v = iζm/(1 + ηζm/2), and its conjugate.
+    The substitution smooths the branch points of Y.
     """
-    h = 0.5 * eta
-    cr, ci = 1.0 + h * real, h * imag
-    square, aside = cr * cr + ci * ci, abs(real * cr + imag * ci)
-    pole, spread = 0.0, _FARTHEST_POLE
-    if aside < _FARTHEST_POLE * square:  # of a sphere there are none: both are 0
-        pole, spread = (real * ci - imag * cr) / square, aside / square
-    spread = max(spread, 1e-14)
+    pole, spread = branch_points(real, imag, 0.5 * eta)
     low, high = (-1.0 - pole) / spread, (1.0 - pole) / spread
     # e^{asinh x} without cancellation
     from_low = low + math.sqrt(1.0 + low * low) if low > 0.0 else 1.0 / (math.sqrt(1.0 + low * low) - low)

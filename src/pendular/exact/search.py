@@ -40,9 +40,8 @@ def at_separation(task: Task, separation: float) -> Task:
 @kernel
 def are_alike(first: Solid, second: Solid) -> bool:
     """Whether two solids are mirror images, but for the last digits of a radius or an angle."""
-    return (
-        abs(first.curvature - second.curvature) <= _LAST_DIGITS * max(first.curvature, second.curvature)
-        and abs(first.contact_angle - second.contact_angle) <= _LAST_DIGITS
+    return (abs(first.curvature - second.curvature) <= _LAST_DIGITS * max(first.curvature, second.curvature)) & (
+        abs(first.contact_angle - second.contact_angle) <= _LAST_DIGITS
     )
 
 

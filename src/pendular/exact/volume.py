@@ -9,7 +9,22 @@ from typing import NamedTuple
 from ..ground.compile import kernel
 from ..ground.lanes import choose, every
 from .algebra import largest_of
-from .arc import ROOM_FOR_32, W8, W32, X8, X32, Arc, arc_after, chosen, force_on, has_room, ratio_of, sums_at, system_on
+from .arc import (
+    LEAST_ROOM,
+    W8,
+    W24,
+    X8,
+    X24,
+    Arc,
+    arc_after,
+    chosen,
+    crowded_at,
+    force_on,
+    has_room,
+    ratio_of,
+    sums_at,
+    system_on,
+)
 from .clearance import extrema_between, is_beyond_doubt
 from .equations import Held, System, volume_row
 from .newton import COARSE_STEPS, LONGEST_STEP, MOST_STEPS, NEARLY_HELD, NO_STEP, left_after, step_to
@@ -25,7 +40,7 @@ class Met(NamedTuple):
 
 
 @kernel
-def _target(excess: float) -> float:
+def volume_target(excess: float) -> float:
     """Right side of the held row, V/V0 ln(V0/V) where the volume is not far too small: ln x by (x - 1)/(x + 1)."""
     s = excess / choose(excess > -1.0, 2.0 + excess, 1.0)
     square = s * s
@@ -39,10 +54,10 @@ def met_at_volume(arc: Arc, separation: float, held: Held, left: float, is_near:
     is_met, before = arc.radius < 0.0, math.nan * arc.radius
     for step in range(MOST_STEPS):
         is_fine = is_near or step >= COARSE_STEPS
-        x, weight = (X32, W32) if is_fine else (X8, W8)
-        system = system_on(arc, held, sums_at(arc, x, weight, True), True)
+        sums = crowded_at(arc, X24, W24, True) if is_fine else sums_at(arc, X8, W8, True)
+        system = system_on(arc, held, sums, True)
         row = volume_row(system, held)
-        change = step_to(separation, system, row.rates, _target(row.value))
+        change = step_to(separation, system, row.rates, volume_target(row.value))
         size = max(largest_of(change), NO_STEP)
         arc = chosen(is_met, arc, arc_after(arc, change, LONGEST_STEP / max(size, LONGEST_STEP)))
         if is_fine:
@@ -62,7 +77,7 @@ def is_stable_at_volume(met: Met, held: Held) -> bool:
     _at_suction, unstable = directions_of(met.system, arc.eta, necks + bulges, True)
     return (
         met.is_met
-        & has_room(arc, ROOM_FOR_32)
+        & has_room(arc, LEAST_ROOM)
         & (abs(unstable) < 0.5)
         & is_beyond_doubt(first, second, held, necks, bulges, force_on(arc), curvature, ratio, arc.half_width)
     )

@@ -182,29 +182,44 @@ def bridges(
 
 
 @kernel
-def ruptures(control: int, held: Floats, pairs: Floats, states: Floats, statuses: Integers) -> int:
-    """Answer rows as `rupture` does; the largest status."""
-    worst = FOUND
-    for i in range(statuses.size):
-        status = end_of_branch(RUPTURE, control, float(held[i]), pairs, states, i)
-        statuses[i] = status
-        worst = max(worst, status)
+def ruptures(control: int, held: Floats, pairs: Floats, states: Floats, statuses: Integers, abreast: Floats) -> int:
+    """Answer rows as `rupture` does, as many abreast as the processor takes; the largest status."""
+    worst, width = FOUND, lanes()
+    for begin in range(0, statuses.size, width):
+        for lane in range(width):
+            i = min(begin + lane, statuses.size - 1)
+            if is_fit(control, likely_separation(float(held[i]), pairs[i]), float(held[i]), pairs[i]):
+                task, length = question_of(control, 0.0, float(held[i]), pairs[i])
+                batch.ask_end_abreast(abreast, lane, task)
+                statuses[i] = batch.OPEN
+            else:
+                batch.ask_no_end(abreast, lane, control)
+                statuses[i] = BAD_INPUT
+        batch.ends_abreast(abreast, control)
+        for i in range(begin, min(begin + width, statuses.size)):
+            task, length = question_of(control, likely_separation(float(held[i]), pairs[i]), float(held[i]), pairs[i])
+            status = int(statuses[i])
+            if status == batch.OPEN:
+                found = batch.found_in_lane(abreast, i - begin)
+                status = batch.summit_status(RUPTURE, BRANCH_ENDS, task, found, states[i])
+            statuses[i] = _ended(status, RUPTURE, task, length, pairs, states, i)
+            worst = max(worst, int(statuses[i]))
     return worst
 
 
 PAIRS, STATES, STATUSES = Array(len(PAIR)), Array(len(State._fields)), Array(kind="int32")
 _ONE = (Integer(), Real(), Real(), PAIRS, STATES)
 ROWS = (Integer(), Count(), Array(), Array(), PAIRS, STATES, STATUSES)
-_ABREAST = (*ROWS, Room(batch.ROOM_ABREAST))
+_ROOM = Room(batch.ROOM_ABREAST)
 
 IN_TURN = (
     Function("pendular_bridge", bridge, (Constant(0), *_ONE)),
     Function("pendular_bridge_near", bridge, (Constant(1), *_ONE)),
     Function("pendular_rupture", rupture, (Integer(), Real(), PAIRS, STATES)),
-    Function("pendular_ruptures", ruptures, (Integer(), Count(), Array(), PAIRS, STATES, STATUSES)),
 )
 FUNCTIONS = (
     *IN_TURN,
-    Function("pendular_bridges", bridges, (Constant(0), *_ABREAST)),
-    Function("pendular_bridges_near", bridges, (Constant(1), *_ABREAST)),
+    Function("pendular_bridges", bridges, (Constant(0), *ROWS, _ROOM)),
+    Function("pendular_bridges_near", bridges, (Constant(1), *ROWS, _ROOM)),
+    Function("pendular_ruptures", ruptures, (Integer(), Count(), Array(), PAIRS, STATES, STATUSES, _ROOM)),
 )

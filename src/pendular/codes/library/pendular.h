@@ -82,8 +82,8 @@ int pendular_bridge_near(
 /* The bridge at the end of its stable branch, where it breaks. */
 int pendular_rupture(int control, double held, const pendular_pair *pair, pendular_state *state);
 
-/* The same for rows; bridges are answered several at once, in half the time. The status of each is stored, and the
-   largest is returned. */
+/* The same for rows, answered several at once in half the time. The status of each is stored, and the largest is
+   returned. */
 int pendular_bridges(int control, size_t count, const double *separation, const double *held,
     const pendular_pair *pairs, pendular_state *states, int *statuses);
 int pendular_bridges_near(int control, size_t count, const double *separation, const double *held,
