@@ -96,7 +96,7 @@ def imports(session: nox.Session) -> None:
 def site(session: nox.Session) -> None:
     """The site, warnings as errors, and each of its pages in Chromium and Firefox, from files and from a server."""
     in_project(session, "docs", "python", "-m", "tools.site")
-    in_project(session, "all", "pytest", "tests/test_site_pages.py")
+    in_project(session, "all", "pytest", *ON_ALL_CORES, "tests/test_site_pages.py")
 
 
 @nox.session(venv_backend="uv")

@@ -272,9 +272,7 @@ def test_a_device_gives_what_the_processor_does(folder, tmp_path):
                 np.testing.assert_allclose(found, expected, rtol=1e-12)
 
 
-@pytest.mark.parametrize(
-    "capability", ["9.0", *(pytest.param(other, marks=pytest.mark.long) for other in ("7.0", "7.5", "8.0", "8.9"))]
-)
+@pytest.mark.parametrize("capability", ["9.0", pytest.param("7.5", marks=pytest.mark.long)])  # the newest, the oldest
 def test_all_kernels_compile_for_a_gpu(capability, folder):
     done = run("compile", folder, capability)
     if "is not installed" in done.stderr:
