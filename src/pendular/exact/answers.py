@@ -145,14 +145,14 @@ def holds_nothing(task: Task) -> bool:
 
 
 @kernel
-def stored_from(guess: Four, task: Task, row: Rows) -> int:
-    """Store the stable bridge, if Newton's method leads to it from a guess."""
+def stored_from(guess: Four, task: Task, unstable: float, row: Rows) -> int:
+    """Store the bridge with so many unstable directions, if Newton's method leads to it from a guess."""
     held = held_of(task)
     z, is_met = newton_to(guess, task.separation, held, _MOST_STEPS)
     if not is_met:
         return FAILED
     description = describe(z, held, is_symmetric(task))
-    if description.state.unstable_directions != 0.0 or not description.is_bridge:
+    if description.state.unstable_directions != unstable or not description.is_bridge:
         return FAILED
     return store(description, LARGEST_MISS, row)
 
@@ -160,4 +160,4 @@ def stored_from(guess: Four, task: Task, row: Rows) -> int:
 @kernel
 def directly_stored(task: Task, row: Rows) -> int:
     """Store the stable bridge, if Newton's method leads to it from the closed guess."""
-    return stored_from(guess_at(held_of(task), task.separation), task, row)
+    return stored_from(guess_at(held_of(task), task.separation), task, 0.0, row)

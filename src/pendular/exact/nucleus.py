@@ -12,35 +12,20 @@ from numpy.typing import NDArray
 
 from ..ground.compile import kernel
 from .algebra import Four, moved
-from .answers import FOUND, LARGEST_MISS, NO_BRIDGE, store
+from .answers import FOUND, NO_BRIDGE, stored_from
 from .curve import set_out
 from .equations import VOLUME, curvature_of, system_at
 from .follow import BRANCH_ENDS, FOLDS, Nodes, beyond, follow, recorded
 from .guess import guess_at_suction
 from .locate import FOLD, PITCHFORK
 from .morph import Task, held_of
-from .newton import newton_to
 from .search import anchor, is_symmetric
-from .state import describe
 
 Rows = NDArray[np.float64]
 
 _WIDENED = (1.0, 1.35, 0.74, 1.8, 0.55)  # of the contact circles of the guess
-_MOST_STEPS = 14
+_UNSTABLE = 1.0  # directions of a nucleus
 _NARROWEST = 1e-3  # gap over V^(1/3) down to which the shapes are looked through
-
-
-@kernel
-def _stored_from(guess: Four, task: Task, row: Rows) -> bool:
-    """Store the nucleus, if Newton's method leads to it."""
-    held = held_of(task)
-    z, is_met = newton_to(guess, task.separation, held, _MOST_STEPS)
-    if not is_met:
-        return False
-    description = describe(z, held, is_symmetric(task))
-    if description.state.unstable_directions != 1.0 or not description.is_bridge:
-        return False
-    return store(description, LARGEST_MISS, row) == FOUND
 
 
 @kernel
@@ -57,7 +42,7 @@ def _stored_between(nodes: Nodes, last: int, task: Task, row: Rows) -> bool:
             near = moved(previous, share, moved(z, -1.0, previous))
             scale = math.log(task.separation / system_at(near, held, True, False).separation.value)
             grown = Four(near.log_radius + scale, near.slope, near.log_length + scale, near.turn)
-            if _stored_from(grown, task, row):
+            if stored_from(grown, task, _UNSTABLE, row) == FOUND:
                 return True
         before = excess
     return False
@@ -68,7 +53,7 @@ def nucleus_stored(task: Task, nodes: Nodes, row: Rows) -> int:
     """Store the bridge of two planes at a separation and a suction."""
     held = held_of(task)
     for widened in _WIDENED:
-        if _stored_from(guess_at_suction(held, task.separation, widened), task, row):
+        if stored_from(guess_at_suction(held, task.separation, widened), task, _UNSTABLE, row) == FOUND:
             return FOUND
     # through all shapes, at one volume, from a wide bridge in a narrow gap to those beyond rupture
     shape = Task(0.3, 1.0 / math.pi, 0.0, task.angle1, 0.0, task.angle2, VOLUME)
