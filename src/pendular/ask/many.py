@@ -88,7 +88,8 @@ def fields_range(
             gap, held = element(separation, i), element(values, i)
             unit = length_unit(control, held, element(radius1, i), element(radius2, i))
             if statuses[i] == OPEN:
-                arc = _arc_near(near, i, unit, tension)
+                is_found = batch.found_in_lane(abreast, lane).radius > 0.0
+                arc = batch.NOWHERE if is_found else _arc_near(near, i, unit, tension)
                 statuses[i] = batch.abreast_status(abreast, lane, wanted, arc, control, row)
             if statuses[i] == FOUND:
                 cosines = batch.cosines_in_lane(abreast, lane)

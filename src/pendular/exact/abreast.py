@@ -26,7 +26,7 @@ _SEPARATION, _HELD, _FIRST, _SECOND, _ARC, _COUNT = 0, 1, 2, 6, 10, 14
 ROOM_ABREAST = 8 * _COUNT  # for as many lanes as any processor has
 
 _LEFT, _LEFT_OF_FORCE = 1e-14, 1e-12  # largest change that would follow
-NEXT_TO_RUPTURE = 0.98  # of the estimate, where to start
+_NEXT_TO_RUPTURE = 0.98  # of the estimate, where to start
 _FALL = 0.7  # of the slope along a curve, at a fold of which nothing is known
 _ANY = Solid(1.0, 0.0, 1.0, 0.0)
 
@@ -118,11 +118,11 @@ def answer_abreast(room: Numbers, control: int, wanted: int, is_near: bool) -> N
 def ask_end_in_lane(room: Numbers, lane: int, held: Held) -> None:
     """Ask for the rupture in a lane, from about there."""
     if held.control == SUCTION:
-        ask_in_lane(room, lane, NEXT_TO_RUPTURE * rupture_guess(held), held, NOWHERE)
+        ask_in_lane(room, lane, _NEXT_TO_RUPTURE * rupture_guess(held), held, NOWHERE)
         return
     start, fall = arc_at_rupture(held)
     if not start.radius > 0.0:
-        start, fall = start_of(held, NEXT_TO_RUPTURE * rupture_guess(held), 1.0), _FALL
+        start, fall = start_of(held, _NEXT_TO_RUPTURE * rupture_guess(held), 1.0), _FALL
     ask_in_lane(room, lane, fall, held, start)
 
 

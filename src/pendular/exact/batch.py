@@ -238,9 +238,13 @@ def _bridge_stored(asked: int, limit: int, task: Task, nodes: Rows, row: Rows) -
     end = answer_to(asked, limit, task, nodes[:0])
     if end.status == FOUND:
         return _stored(asked, end, row)
-    if end.status == FAILED and task.control == SUCTION and task.value < 0.0:
-        return NO_BRIDGE  # under pressure most pairs hold no bridge; one that exists is found
-    return end.status
+    return _under_pressure(end.status, task)
+
+
+@kernel
+def _under_pressure(status: int, task: Task) -> int:
+    """The status of a search: under pressure most pairs hold no bridge, and one that exists is found."""
+    return NO_BRIDGE if status == FAILED and task.control == SUCTION and task.value < 0.0 else status
 
 
 @kernel
@@ -251,6 +255,12 @@ def rest_stored(asked: int, limit: int, task: Task, nodes: Rows, row: Rows) -> i
         status = _end_stored(asked, limit, task, row)
     if status == OPEN:
         status = _bridge_stored(asked, limit, task, nodes, row)
+    return _ended(status, row)
+
+
+@kernel
+def _ended(status: int, row: Rows) -> int:
+    """The status; a row without an answer is NaN."""
     if status != FOUND:
         row[:] = math.nan
     return status
@@ -273,10 +283,10 @@ def stable_range(
         answer_abreast(room, control, wanted, False)
         for lane in range(count):
             i = begin + lane
-            if statuses[i] == OPEN:
-                statuses[i] = abreast_status(room, lane, wanted, NOWHERE, control, states[i])
-            if statuses[i] != FOUND:
-                states[i, :] = math.nan
+            status = int(statuses[i])
+            if status == OPEN:
+                status = abreast_status(room, lane, wanted, NOWHERE, control, states[i])
+            statuses[i] = _ended(status, states[i])
 
 
 @entry(plain_cost=4e-3, patience=4.0)
@@ -299,9 +309,8 @@ def summit_range(
         ends_abreast(room, control)
         for i in range(begin, min(begin + width, stop)):
             found = found_in_lane(room, i - begin)
-            statuses[i] = summit_status(asked, limit, task_of(questions[i], control), found, states[i])
-            if statuses[i] != FOUND:
-                states[i, :] = math.nan
+            status = summit_status(asked, limit, task_of(questions[i], control), found, states[i])
+            statuses[i] = _ended(status, states[i])
 
 
 @entry(plain_cost=5e-3, patience=4.0)
@@ -313,10 +322,7 @@ def end_range(
     Others stay OPEN.
     """
     for i in range(start, stop):
-        status = _end_stored(asked, limit, task_of(questions[i], control), states[i])
-        statuses[i] = status
-        if status != FOUND:
-            states[i, :] = math.nan
+        statuses[i] = _ended(_end_stored(asked, limit, task_of(questions[i], control), states[i]), states[i])
 
 
 @entry(plain_cost=0.05, patience=15.0)
@@ -334,9 +340,7 @@ def bridge_range(
     """Answer the rows from start to stop."""
     for i in range(start, stop):
         status = _bridge_stored(asked, limit, task_of(questions[i], control), nodes, states[i])
-        statuses[i] = status
-        if status != FOUND:
-            states[i, :] = math.nan
+        statuses[i] = _ended(status, states[i])
 
 
 def answer(
@@ -414,11 +418,7 @@ def curve_range(
     for i in range(start, stop):
         task = task_of(questions[i], control)
         status = NO_BRIDGE if holds_nothing(task) else trace(limit, task, states[i], nodes)
-        if status == FAILED and control == SUCTION and task.value < 0.0:
-            status = NO_BRIDGE
-        statuses[i] = status
-        if status != FOUND:
-            states[i] = math.nan
+        statuses[i] = _ended(_under_pressure(status, task), states[i])
 
 
 def draw(control: int, questions: Rows, points: int, limit: int = BRANCH_ENDS) -> tuple[NDArray[np.float64], Statuses]:
@@ -454,11 +454,8 @@ def filling_range(
         if not holds_nothing(task):
             filling = Filling(solid, angle, math.sin(angle), math.cos(angle))
             status = store_filling(asked, limit, task, filling, nodes, found, states[i], separations[i])
-            if status == FAILED and control == SUCTION and task.value < 0.0:
-                status = NO_BRIDGE
-        statuses[i] = status
-        if status != FOUND:
-            states[i, :] = math.nan
+            status = _under_pressure(status, task)
+        statuses[i] = _ended(status, states[i])
 
 
 def answer_filling(

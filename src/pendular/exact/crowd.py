@@ -46,29 +46,53 @@ def _crowd_of(real: float, imag: float, h: float) -> Crowd:
     return Crowd(pole, half * middle, half / middle, (widened - 1.0) / (widened + 1.0))
 
 
+class Node(NamedTuple):
+    """A point of an arc, with its shares of the sums; Y and φ are radius and slope there."""
+
+    v: float
+    w: float  # ηv/2
+    p: float  # 1/(1 + w²)
+    square: float  # Y²
+    cosine: float  # cos φ ds, of a node with its weight
+    sine: float
+    real: float  # of the rate of ln ζ in Re ζm
+    imag: float
+
+
+@kernel
+def _node_at(real: float, imag: float, h: float, crowd: Crowd, x: float, weight: float) -> Node:
+    """The point at a node x in [-1, 1]."""
+    place = crowd.bend * x
+    up, down = 1.0 + place, 1.0 - place
+    over = 1.0 / (up * down)
+    r, s = up * up * over, down * down * over
+    ahead, behind = crowd.onwards * (r * r), crowd.back * (s * s)
+    v, dv = crowd.pole + ahead - behind, (ahead + behind) * (4.0 * crowd.bend * over) * weight
+    w = h * v
+    nr, ni = real - h * imag * v, imag + (1.0 + h * real) * v
+    turned, size = 1.0 + w * w, nr * nr + ni * ni
+    inverse = 1.0 / (turned * size)
+    p, shrunk = size * inverse, turned * inverse  # 1/(1 + w²), 1/|N|²
+    share = dv * p * p * math.sqrt(turned * shrunk)
+    return Node(
+        v,
+        w,
+        p,
+        size * p,
+        share * (nr - ni * w),
+        share * (ni + nr * w),
+        (nr + w * ni) * shrunk,
+        (w * nr - ni) * shrunk,
+    )
+
+
 @summing_kernel
 def _sum_length(real: float, imag: float, h: float, crowd: Crowd, x: Nodes, weight: Nodes) -> Sums:
     """Length and its rates."""
-    pole, onwards, back, bend = crowd
     nothing = 0.0 * h  # in lanes, if that is in lanes
     length = by_real = by_imag = by_eta = nothing
-    run, twist = 1.0 + h * real, h * imag
-    steep = 4.0 * bend
     for j in range(len(x)):
-        place = bend * x[j]
-        up, down = 1.0 + place, 1.0 - place
-        over = 1.0 / (up * down)
-        r, s = up * up * over, down * down * over
-        ahead, behind = onwards * (r * r), back * (s * s)
-        v, dv = pole + ahead - behind, (ahead + behind) * (steep * over) * weight[j]
-        w = h * v
-        nr, ni = real - twist * v, imag + run * v
-        turned, size = 1.0 + w * w, nr * nr + ni * ni
-        inverse = 1.0 / (turned * size)
-        p, shrunk = size * inverse, turned * inverse  # 1/(1 + w²), 1/|N|²
-        share = dv * p * p * math.sqrt(turned * shrunk)
-        cosine, sine = share * (nr - ni * w), share * (ni + nr * w)
-        fr, fi = (nr + w * ni) * shrunk, (w * nr - ni) * shrunk
+        v, w, p, _square, cosine, sine, fr, fi = _node_at(real, imag, h, crowd, x[j], weight[j])
         length += cosine
         by_real -= sine * fi
         by_imag -= sine * fr
@@ -79,30 +103,14 @@ def _sum_length(real: float, imag: float, h: float, crowd: Crowd, x: Nodes, weig
 @summing_kernel
 def _sum_both(real: float, imag: float, h: float, crowd: Crowd, x: Nodes, weight: Nodes) -> Sums:
     """Length and volume with their rates."""
-    pole, onwards, back, bend = crowd
     nothing = 0.0 * h  # in lanes, if that is in lanes
     length = by_real = by_imag = by_eta = nothing
     volume = v_real = v_imag = v_eta = nothing
-    run, twist = 1.0 + h * real, h * imag
-    steep = 4.0 * bend
     for j in range(len(x)):
-        place = bend * x[j]
-        up, down = 1.0 + place, 1.0 - place
-        over = 1.0 / (up * down)
-        r, s = up * up * over, down * down * over
-        ahead, behind = onwards * (r * r), back * (s * s)
-        v, dv = pole + ahead - behind, (ahead + behind) * (steep * over) * weight[j]
-        w = h * v
-        nr, ni = real - twist * v, imag + run * v
-        turned, size = 1.0 + w * w, nr * nr + ni * ni
-        inverse = 1.0 / (turned * size)
-        p, shrunk = size * inverse, turned * inverse  # 1/(1 + w²), 1/|N|²
-        share = dv * p * p * math.sqrt(turned * shrunk)
-        cosine, sine = share * (nr - ni * w), share * (ni + nr * w)
-        fr, fi = (nr + w * ni) * shrunk, (w * nr - ni) * shrunk
+        v, w, p, square, cosine, sine, fr, fi = _node_at(real, imag, h, crowd, x[j], weight[j])
         reach, across = v * p, imag + 0.5 * v
         grown, bent = -reach * (across * fr + real * fi), reach * (real * fr - across * fi)
-        lag, square = reach * w, size * p
+        lag = reach * w
         disc, tilt = cosine * square, sine * square
         length += cosine
         by_real -= sine * fi

@@ -4,11 +4,12 @@ import math
 
 from ..ground.compile import kernel
 from .algebra import Four, largest, moved, solve4
+from .arc import W8, W16, W24, X8, X16, X24, Nodes
 from .equations import VOLUME, Held, System, held_row, system_at
 from .meridian import Row
 
 LONGEST_STEP = 1.0
-COARSE_STEPS, MOST_STEPS = 3, 7  # of rows abreast
+MOST_STEPS, _COARSE_STEPS = 7, 3  # of rows abreast
 _MOST_TURN = 9.0  # |ω| beyond which an arc winds about itself
 _COARSE_STEP = 1e-4  # from which on the finer nodes are used
 NO_STEP = 1e-20  # a guess may be the bridge itself
@@ -45,6 +46,20 @@ def left_after(size: float, before: float) -> float:
     """What is left after a step: its square, by the factor that made it the square of the one before."""
     shrunk = size / before
     return size * shrunk * shrunk
+
+
+@kernel
+def is_fine_step(step: int, is_near: bool) -> bool:
+    """Whether rows abreast, from a guess or from bridges near by, are in need of sums that hold for any arc."""
+    return is_near or step >= _COARSE_STEPS
+
+
+@kernel
+def nodes_of_step(step: int, is_near: bool) -> tuple[Nodes, Nodes]:
+    """Nodes and weights for rows abreast: the first step is never the last, and takes fewer."""
+    if not is_fine_step(step, is_near):
+        return X8, W8
+    return (X16, W16) if step == 0 else (X24, W24)
 
 
 @kernel

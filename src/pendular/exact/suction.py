@@ -17,10 +17,10 @@ from typing import NamedTuple
 from ..ground.compile import kernel, summing_kernel
 from ..ground.lanes import every
 from .algebra import Four, dot, largest_of, scaled
-from .arc import ROOM_FOR_24, W8, W24, X8, X24, Arc, Nodes, arc_after, chosen, force_on, has_room, ratio_of
+from .arc import ROOM_FOR_24, W24, X24, Arc, Nodes, arc_after, chosen, force_on, has_room, ratio_of
 from .clearance import extrema_between, is_beyond_doubt
 from .equations import Held
-from .newton import COARSE_STEPS, LONGEST_STEP, MOST_STEPS, NO_STEP, left_after
+from .newton import LONGEST_STEP, MOST_STEPS, NO_STEP, is_fine_step, left_after, nodes_of_step
 from .solids import Solid, contact_with
 from .stability import directions_at_suction
 
@@ -197,14 +197,13 @@ def met_at_suction(arc: Arc, separation: float, held: Held, left: float, is_near
     """From a guess to the bridge at a separation, but for what is left; from a bridge near by on all nodes at once."""
     is_met, before = arc.radius < 0.0, math.nan * arc.radius
     for step in range(MOST_STEPS):
-        is_fine = is_near or step >= COARSE_STEPS
-        x, weight = (X24, W24) if is_fine else (X8, W8)
+        x, weight = nodes_of_step(step, is_near)
         stand = stand_of(arc, held, x, weight)
         change = _step_to(stand, arc, separation)
         size = max(largest_of(change), NO_STEP)
         moved = arc_after(arc, change, LONGEST_STEP / max(size, LONGEST_STEP))
         arc = chosen(is_met, arc, Arc(moved.radius, moved.slope, moved.half_width, held.value * moved.half_width))
-        if is_fine:
+        if is_fine_step(step, is_near):
             is_met = is_met | (left_after(size, before) < left)
             if every(is_met):
                 break

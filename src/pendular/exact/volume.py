@@ -11,10 +11,6 @@ from ..ground.lanes import choose, every
 from .algebra import largest_of
 from .arc import (
     LEAST_ROOM,
-    W8,
-    W24,
-    X8,
-    X24,
     Arc,
     arc_after,
     chosen,
@@ -27,7 +23,16 @@ from .arc import (
 )
 from .clearance import extrema_between, is_beyond_doubt
 from .equations import Held, System, volume_row
-from .newton import COARSE_STEPS, LONGEST_STEP, MOST_STEPS, NEARLY_HELD, NO_STEP, left_after, step_to
+from .newton import (
+    LONGEST_STEP,
+    MOST_STEPS,
+    NEARLY_HELD,
+    NO_STEP,
+    is_fine_step,
+    left_after,
+    nodes_of_step,
+    step_to,
+)
 from .stability import directions_of
 
 
@@ -53,8 +58,9 @@ def met_at_volume(arc: Arc, separation: float, held: Held, left: float, is_near:
     """From a guess to the bridge at a separation, but for what is left; from a bridge near by on all nodes at once."""
     is_met, before = arc.radius < 0.0, math.nan * arc.radius
     for step in range(MOST_STEPS):
-        is_fine = is_near or step >= COARSE_STEPS
-        sums = crowded_at(arc, X24, W24, True) if is_fine else sums_at(arc, X8, W8, True)
+        is_fine = is_fine_step(step, is_near)
+        x, weight = nodes_of_step(step, is_near)
+        sums = crowded_at(arc, x, weight, True) if is_fine else sums_at(arc, x, weight, True)
         system = system_on(arc, held, sums, True)
         row = volume_row(system, held)
         change = step_to(separation, system, row.rates, volume_target(row.value))

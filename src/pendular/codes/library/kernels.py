@@ -174,7 +174,8 @@ def bridges(
             task, length = question_of(control, float(separation[i]), float(held[i]), pairs[i])
             status = int(statuses[i])
             if status == batch.OPEN:
-                near = _near(warm, states[i], length)
+                is_found = batch.found_in_lane(abreast, lane).radius > 0.0
+                near = batch.NOWHERE if is_found else _near(warm, states[i], length)
                 status = batch.abreast_status(abreast, lane, batch.ALL, near, control, states[i])
             statuses[i] = _ended(status, STABLE, task, length, pairs, states, i)
             worst = max(worst, int(statuses[i]))
