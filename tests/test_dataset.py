@@ -15,7 +15,8 @@ from distributed import LocalCluster
 import pendular as pl
 from oracles.young_laplace import EXACT, Solid, connect, state
 from pendular.dataset import base as ds
-from pendular.dataset import interpolation
+from pendular.dataset import interpolation, variables
+from pendular.dataset import store as stores
 from pendular.dataset.grid import GridPoint, Solids, grid_point
 
 UNIT = pl.Liquid(surface_tension=1.0)
@@ -31,7 +32,7 @@ def paper():
 @pytest.fixture
 def short_chunks(monkeypatch):
     """Blocks of five rows, so that the small grid has five chunks a pair."""
-    monkeypatch.setattr(ds, "_POINTS_PER_CHUNK", 80)
+    monkeypatch.setattr(stores, "_POINTS_PER_CHUNK", 80)
 
 
 def refused(message: str):
@@ -223,7 +224,7 @@ def test_store_equals_memory(tmp_path, short_chunks):
 
 def test_an_interruption_costs_only_the_chunk_that_was_under_way(tmp_path, short_chunks, monkeypatch):
     path = tmp_path / "bridges.zarr"
-    compute, calls = ds._compute, Counter()
+    compute, calls = variables.compute, Counter()
 
     def interrupted(*args):
         calls["first"] += 1
@@ -231,7 +232,7 @@ def test_an_interruption_costs_only_the_chunk_that_was_under_way(tmp_path, short
             raise KeyboardInterrupt
         return compute(*args)
 
-    monkeypatch.setattr(ds, "_compute", interrupted)
+    monkeypatch.setattr(stores, "compute", interrupted)
     with pytest.raises(KeyboardInterrupt):
         ds.make_dataset(path, **SMALL)
     with refused(f"path: only 35.4% of {path} is computed"):  # 34 of 96 rows: a pair ends with a chunk of 4
@@ -243,10 +244,10 @@ def test_an_interruption_costs_only_the_chunk_that_was_under_way(tmp_path, short
         calls["second"] += 1
         return compute(*args)
 
-    monkeypatch.setattr(ds, "_compute", counted)
+    monkeypatch.setattr(stores, "compute", counted)
     continued = ds.make_dataset(path, **SMALL)
     assert calls["second"] == 20 - 7
-    monkeypatch.setattr(ds, "_compute", compute)
+    monkeypatch.setattr(stores, "compute", compute)
     assert ds.make_dataset(**SMALL).identical(continued)
 
 
@@ -255,7 +256,7 @@ def test_continuing_another_data_base_is_refused(tmp_path, monkeypatch):
     ds.make_dataset(path, **SMALL)
     with refused(f"path: {path} holds a data base with other coordinates"):
         ds.make_dataset(path, **{**SMALL, "shape": (24, 17)})
-    monkeypatch.setattr(ds, "version", lambda _: "0.0.1")
+    monkeypatch.setattr(variables, "version", lambda _: "0.0.1")
     with refused(f"path: {path} was written by pendular {pl.__version__}"):
         ds.make_dataset(path, **SMALL)
 
@@ -382,15 +383,15 @@ def test_two_runs_may_make_one_store(tmp_path):
 
 def test_of_two_that_create_a_store_one_is_in_time(tmp_path, monkeypatch):
     path = tmp_path / "bridges.zarr"
-    create = ds._write_empty
+    create = stores._write_empty
 
     def slow(*arguments):
         if not path.exists():
-            monkeypatch.setattr(ds, "_write_empty", create)
+            monkeypatch.setattr(stores, "_write_empty", create)
             ds.make_dataset(path, **SMALL)
         create(*arguments)
 
-    monkeypatch.setattr(ds, "_write_empty", slow)
+    monkeypatch.setattr(stores, "_write_empty", slow)
     assert ds.make_dataset(path, **SMALL).identical(ds.make_dataset(**SMALL))
     assert [entry.name for entry in tmp_path.iterdir()] == ["bridges.zarr"]
 

@@ -11,8 +11,9 @@ from ..exact.follow import FOLDS
 from ..exact.state import State
 from ..ground.check import angle, broadcast, in_range, one_of, quantity, whole_number
 from ..ground.compile import compiled
-from .base import PAIR_DIMS, check_dataset, curvatures, damage_told, solids_of
 from .grid import Sheet, interpolate_range, longest_rises
+from .store import damage_told
+from .variables import PAIR_DIMS, check_dataset, curvatures, solids_of
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -30,6 +30,7 @@ def dataset(
 ) -> None:
     """Data base of bridges over half-filling angle and neck ratio."""
     from ...dataset import base as data
+    from ...dataset.variables import VARIABLES
     from ...show.text import dataset_lines, interpolation_lines
 
     counts = re.fullmatch(r"(\d+)x(\d+)", shape)
@@ -47,7 +48,7 @@ def dataset(
     )
     if netcdf is not None:
         data.save_dataset(data.load_dataset(path), netcdf)
-    typer.echo(dataset_lines(sizes, data.VARIABLES))
+    typer.echo(dataset_lines(sizes, VARIABLES))
     if check:
         typer.echo(interpolation_lines(data.load_dataset(path)))
 
