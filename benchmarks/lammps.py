@@ -3,7 +3,9 @@
 ``python -m benchmarks.lammps`` prints a table for packings of some ten thousand grains; ``python -m benchmarks.lammps
 million`` repeats a packing to a million grains, and prints what they cost on one rank and on two. A packing is pressed
 together from afar, left to rest under its bridges, and sheared while the time is taken. Runs with bridges and without
-take turns, each in a process of its own, for where memory lies matters more than what is measured.
+take turns: of small packings each in a process of its own, for where memory lies matters more than what is measured; of
+a million grains both in one process, some steps of the one and then of the other, for a machine does not keep its speed
+over minutes.
 """
 
 import json
@@ -15,7 +17,7 @@ import sys
 import tempfile
 import time
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from mpi4py import MPI  # isort: skip  # before LAMMPS, which then finds the library
 
@@ -32,6 +34,7 @@ SOLID_FRACTION = 0.645
 LOOSE = 2.3  # edge of a lattice cell over the largest diameter, before the compression
 TURNS = 5
 STRAIN_RATE = 70.0  # 1/s
+MILLION_TURNS, MILLION_STEPS = 10, 17  # as many steps as from one neighbour list to the next
 SHORT = 5  # steps of a run that is taken off a longer one, with all that goes before and after the steps
 SCRIPT = Path(__file__).parent / "yade_packing.py"
 
@@ -119,20 +122,17 @@ def dense(spread: float, wet: Wet, cells: int = CELLS) -> Packing:
     return found
 
 
-def steps_of(folder: Path, is_wet: bool, repeats: tuple[int, int, int], steps: int, rounds: int) -> dict[str, float]:
-    """Processor time of a step on the slowest rank, [s], least of some rounds, and the number of bridges.
+def steps_of(folder: Path, is_wet: bool, steps: int, rounds: int) -> dict[str, float]:
+    """Processor time of a step, [s], least of some rounds, and the number of bridges.
 
-    For a process of its own, or for several that ``mpiexec`` starts: the packing of the folder is sheared.
+    For a process of its own: the packing of the folder is sheared.
     """
-    with np.load(folder / "packing.npz") as file:
-        packing = Packing(file["radii"], file["positions"], float(file["box"]))
-    lmp = simulation(packing, Wet(folder / PLUGIN, folder / "w.bridges") if is_wet else None, repeats)
-    lmp.commands_string(f"fix shear all deform 1 xy erate {STRAIN_RATE} remap v\nrun {SHORT}")
+    lmp = sheared(folder, is_wet, (1, 1, 1))
     rows = []
     for _ in range(rounds):
-        long = taken(lmp, SHORT + steps)
+        long = taken(lmp, f"{SHORT + steps}")
         builds = lmp.get_thermo("nbuild") / (SHORT + steps)
-        rows.append((long - taken(lmp, SHORT)) / steps)
+        rows.append((long - taken(lmp, f"{SHORT}")) / steps)
     number = lmp.extract_compute("bridges", 0, 0) if is_wet else 0
     found = {
         "step": min(rows),
@@ -144,26 +144,54 @@ def steps_of(folder: Path, is_wet: bool, repeats: tuple[int, int, int], steps: i
     return found
 
 
-def taken(lmp: lammps, steps: int) -> float:
+def sheared(folder: Path, is_wet: bool, repeats: tuple[int, int, int]) -> lammps:
+    """LAMMPS with the packing of a folder, repeated in each direction, that has begun to be sheared."""
+    with np.load(folder / "packing.npz") as file:
+        packing = Packing(file["radii"], file["positions"], float(file["box"]))
+    lmp = simulation(packing, Wet(folder / PLUGIN, folder / "w.bridges") if is_wet else None, repeats)
+    lmp.commands_string(f"fix shear all deform 1 xy erate {STRAIN_RATE} remap v\nrun {SHORT}")
+    return lmp
+
+
+def turns_of(folder: Path, repeats: tuple[int, int, int], steps: int, rounds: int) -> dict[str, float]:
+    """Processor time of a step on the slowest rank without bridges and with them, [s], and what they add to it.
+
+    Medians over the rounds. For a process of its own, or for several that ``mpiexec`` starts.
+    """
+    dry, wet = (sheared(folder, is_wet, repeats) for is_wet in (False, True))
+    rows = []
+    for _ in range(rounds):
+        rows.append([taken(lmp, f"{steps} pre no post no") / steps for lmp in (dry, wet)])
+    found = {
+        "dry": statistics.median(row[0] for row in rows),
+        "wet": statistics.median(row[1] for row in rows),
+        "more": statistics.median(row[1] / row[0] for row in rows) - 1.0,
+        "bridges": wet.extract_compute("bridges", 0, 0),
+        "grains": wet.get_natoms(),
+    }
+    dry.close()
+    wet.close()
+    return found
+
+
+def taken(lmp: lammps, run: str) -> float:
     """Processor time of a run on the slowest rank, [s]."""
     begin = time.thread_time()
-    lmp.command(f"run {steps}")
+    lmp.command(f"run {run}")
     return float(MPI.COMM_WORLD.allreduce(time.thread_time() - begin, op=MPI.MAX))
 
 
-def asked(folder: Path, is_wet: bool, repeats: tuple[int, int, int], steps: int, rounds: int, ranks: int = 1) -> dict:
-    """The same from processes of their own."""
-    words = [sys.executable, "-m", "benchmarks.lammps", "steps", str(folder), str(int(is_wet)), *map(str, repeats)]
+def asked(words: list[object], ranks: int = 1) -> dict:
+    """What this module finds in processes of their own."""
     mpi = [str(Path(sys.executable).with_name("mpiexec")), "-n", str(ranks)] if ranks > 1 else []
-    done = subprocess.run(
-        [*mpi, *words, str(steps), str(rounds)], check=True, capture_output=True, text=True, timeout=1200
-    )
+    command = [*mpi, sys.executable, "-m", "benchmarks.lammps", *map(str, words)]
+    done = subprocess.run(command, check=True, capture_output=True, text=True, timeout=2400)
     return json.loads(done.stdout.splitlines()[-1])
 
 
-def in_turns(folder: Path, turns: int, **how: Any) -> tuple[dict, dict, float]:
+def in_turns(folder: Path) -> tuple[dict, dict, float]:
     """What was found without bridges and with them, medians, and what they add: the median of the ratios, less one."""
-    pairs = [(asked(folder, False, **how), asked(folder, True, **how)) for _ in range(turns)]
+    pairs = [[asked(["steps", folder, is_wet, 200, 3]) for is_wet in (0, 1)] for _ in range(TURNS)]
     dry, wet = ({name: statistics.median(each[k][name] for each in pairs) for name in pairs[0][k]} for k in range(2))
     return dry, wet, statistics.median(wet["step"] / dry["step"] for dry, wet in pairs) - 1.0
 
@@ -198,7 +226,7 @@ def measure() -> str:
         for title, spread in (("radii of 35 to 65 µm", 0.3), ("all radii 50 µm", 0.0)):
             packing = dense(spread, wet)
             np.savez(folder / "packing.npz", **packing._asdict())
-            dry, with_bridges, more = in_turns(folder, TURNS, repeats=(1, 1, 1), steps=200, rounds=3)
+            dry, with_bridges, more = in_turns(folder)
             lines += lines_of(title, dry, with_bridges, more)
             other = yade_times(packing)
             if other is not None:
@@ -236,34 +264,34 @@ def million() -> str:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         np.savez(folder / "packing.npz", **dense(0.3, build_all(folder), cells=10)._asdict())
-        found = {ranks: in_turns(folder, 1, repeats=(10, 10, 10), steps=45, rounds=1, ranks=ranks) for ranks in (1, 2)}
-    (dry, wet, more), (dry2, wet2, more2) = found[1], found[2]
+        one, two = (asked(["turns", folder, 10, MILLION_STEPS, MILLION_TURNS], ranks) for ranks in (1, 2))
     rows = [
-        f"| {words} | {1e3 * one:.0f} | {1e3 * two:.0f} | {one / two:.2f} |"
-        for words, one, two in (
-            ("contacts alone", dry["step"], dry2["step"]),
-            ("contacts and bridges", wet["step"], wet2["step"]),
-        )
+        f"| {words} | {1e3 * one[name]:.0f} | {1e3 * two[name]:.0f} | {one[name] / two[name]:.2f} |"
+        for words, name in (("contacts alone", "dry"), ("contacts and bridges", "wet"))
     ]
     return f"""
-{dry["grains"]:.0f} grains, {wet["bridges"]:.0f} bridges: a packing of 1000 grains, ten times in each direction.
-Processor time of a step on the slower rank, once, over 45 steps, with a new neighbour list every
-{1 / max(wet["builds"], 1e-3):.0f} steps.
+{one["grains"]:.0f} grains, {one["bridges"]:.0f} bridges: a packing of 1000 grains, ten times in each direction.
+Processor time of a step on the slower rank, medians of {MILLION_TURNS} turns of {MILLION_STEPS} steps, in each of which
+the neighbour list is made once.
 
 | | one rank, ms a step | two ranks | one over two |
 |---|---:|---:|---:|
 {chr(10).join(rows)}
-| the bridges over the contacts alone | {more:.1%} | {more2:.1%} | |
+| the bridges over the contacts alone | {one["more"]:.1%} | {two["more"]:.1%} | |
 """
 
 
-if __name__ == "__main__":
-    words = sys.argv[1:]
+def main(words: list[str]) -> str:
+    """What is asked on the command line."""
     if words[:1] == ["steps"]:
-        folder, is_wet, *numbers = words[1:]
-        x, y, z, steps, rounds = map(int, numbers)
-        found = steps_of(Path(folder), is_wet == "1", (x, y, z), steps, rounds)
-        if MPI.COMM_WORLD.rank == 0:
-            sys.stdout.write(json.dumps(found) + "\n")
-    else:
-        sys.stdout.write(million() if words == ["million"] else measure())
+        folder, is_wet, steps, rounds = Path(words[1]), words[2] == "1", int(words[3]), int(words[4])
+        return json.dumps(steps_of(folder, is_wet, steps, rounds)) + "\n"
+    if words[:1] == ["turns"]:
+        folder, repeats, steps, rounds = Path(words[1]), int(words[2]), int(words[3]), int(words[4])
+        found = json.dumps(turns_of(folder, (repeats, repeats, repeats), steps, rounds)) + "\n"
+        return found if MPI.COMM_WORLD.rank == 0 else ""
+    return million() if words == ["million"] else measure()
+
+
+if __name__ == "__main__":
+    sys.stdout.write(main(sys.argv[1:]))
