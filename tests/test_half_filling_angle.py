@@ -241,8 +241,8 @@ def test_made_bridges_are_found(seed, angles):
 @pytest.mark.long
 @pytest.mark.parametrize(("seed", "angles"), [(73, math.pi / 2.0), (74, math.pi)])
 def test_many_made_bridges_are_found(seed, angles):
-    faults, counts = ask_made(seed, 600, angles)
+    faults, counts = ask_made(seed, 400, angles)
     assert not faults, "\n".join(map(str, faults))
-    assert counts["volume"] > 180
-    assert counts["suction"] > 60
-    assert counts["several at one volume"] > 60
+    assert counts["volume"] > 120
+    assert counts["suction"] > 40
+    assert counts["several at one volume"] > 40
