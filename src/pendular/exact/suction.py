@@ -194,7 +194,7 @@ def _moved(arc: Arc, direction: Four, way: float, held: Held) -> Arc:
 
 @kernel
 def met_at_suction(arc: Arc, separation: float, held: Held, left: float, is_near: bool) -> Met:
-    """From a guess to the bridge at a separation, but for what is left; from a bridge near by on all nodes at once."""
+    """From a guess to the bridge at a separation, but for what is left; from a bridge near by on fine nodes at once."""
     is_met, before = arc.radius < 0.0, math.nan * arc.radius
     for step in range(MOST_STEPS):
         x, weight = nodes_of_step(step, is_near)

@@ -55,7 +55,7 @@ def volume_target(excess: float) -> float:
 
 @kernel
 def met_at_volume(arc: Arc, separation: float, held: Held, left: float, is_near: bool) -> Met:
-    """From a guess to the bridge at a separation, but for what is left; from a bridge near by on all nodes at once."""
+    """From a guess to the bridge at a separation, but for what is left; from a bridge near by on fine nodes at once."""
     is_met, before = arc.radius < 0.0, math.nan * arc.radius
     for step in range(MOST_STEPS):
         is_fine = is_fine_step(step, is_near)
