@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import pendular as pl
+from pendular.packing.finding import CHUNK
 from pendular.packing.forces import BridgeState, contact_energy, contact_forces
-from pendular.packing.step import CHUNK
 
 ANGLE, TENSION = 0.35, 0.0728
 WATER = pl.Liquid(surface_tension=TENSION)
@@ -141,7 +141,7 @@ def test_neither_threads_nor_the_order_of_the_list_change_a_bit(tables, monkeypa
     assert len(pairs) > 2 * CHUNK
     results = []
     for count in (1, 3):
-        for module in ("ground.rows", "packing.step"):
+        for module in ("ground.rows", "packing.finding", "packing.adding"):
             monkeypatch.setattr(f"pendular.{module}.thread_count", lambda count=count: count)
         for order in (np.arange(len(pairs)), rng.permutation(len(pairs))):
             volumes = VOLUME * (1.0 + (pairs.sum(axis=1)[order] % 7))
@@ -151,6 +151,65 @@ def test_neither_threads_nor_the_order_of_the_list_change_a_bit(tables, monkeypa
         for name in ("force", "virial", "separation", "attraction"):
             np.testing.assert_array_equal(getattr(other, name), getattr(results[0], name))
         np.testing.assert_array_equal(other.state.control, results[0].state.control)
+
+
+def chains(seed):
+    """Chains of grains that touch, with numbers far apart between two chains, listed shuffled; some grains alone."""
+    print("seed", seed)
+    rng = np.random.default_rng(seed)
+    lengths, spaces = rng.integers(2, 4000, 30), rng.integers(0, 30000, 30)
+    starts = np.cumsum(lengths + spaces) - lengths
+    positions = rng.uniform(1.0, 2.0, (starts[-1] + lengths[-1] + 20000, 3))
+    for row, (start, length) in enumerate(zip(starts, lengths, strict=True)):
+        positions[start : start + length] = 0.0
+        positions[start : start + length, 0] = np.cumsum(rng.uniform(199e-6, 201e-6, length))
+        positions[start : start + length, 1] = row * 1e-3
+    pairs = np.concatenate(
+        [
+            np.column_stack([np.arange(s, s + n - 1), np.arange(s + 1, s + n)])
+            for s, n in zip(starts, lengths, strict=True)
+        ]
+    )
+    return rng.permutation(pairs), positions, np.full(len(positions), 100e-6)
+
+
+@pytest.mark.parametrize("chunks", [1, 2])
+def test_runs_of_contacts_change_no_bit(tables, monkeypatch, chunks):
+    pairs, positions, radii = chains(17)
+    assert len(pairs) > 3 * CHUNK
+    asked = (tables["suction"], pairs, positions, radii, SUCTION, TENSION)
+    whole = contact_forces(*asked, formation_distance=0.5e-6)
+    near, lies = (np.zeros(len(positions), bool) for _ in range(2))
+    near[whole.state.pairs], lies[pairs] = True, True
+    assert CHUNK < len(whole.state.pairs) < len(pairs)
+    assert not whole.force[~near].any()
+    assert not lies.all()
+    monkeypatch.setattr("pendular.packing.step.run_length", lambda: chunks * CHUNK)
+    for state in (None, whole.state, BridgeState(whole.state.pairs[:100], whole.state.control[:100])):
+        part = contact_forces(*asked, formation_distance=0.5e-6, state=state)
+        for name in ("force", "virial", "separation", "attraction"):
+            np.testing.assert_array_equal(getattr(part, name), getattr(whole, name))
+        np.testing.assert_array_equal(part.state.pairs, whole.state.pairs)
+
+
+@pytest.mark.parametrize("place", [0, 1, -1])
+def test_a_grain_without_contact_that_is_none_is_refused(tables, place):
+    pairs, positions, radii = chains(18)
+    alone = np.setdiff1d(np.arange(len(radii)), pairs)[place]
+    for name, wrong in (("positions", math.nan), ("positions", math.inf), ("radii", 0.0), ("radii", math.nan)):
+        arrays = {"positions": positions.copy(), "radii": radii.copy()}
+        arrays[name][alone] = wrong
+        with pytest.raises(ValueError, match=name):
+            contact_forces(tables["suction"], pairs, *arrays.values(), SUCTION, TENSION)
+
+
+def test_a_former_bridge_that_is_no_pair_stands_for_no_other(tables):
+    _, pairs, positions, radii = packing(19)
+    low, high = sorted(pairs[0].tolist())
+    for wrong in ((low - 1, high + len(radii)), (low + 1, high - len(radii))):
+        state = BridgeState(np.array([wrong]), np.array([SUCTION]))
+        with pytest.raises(ValueError, match=r"state.pairs\[0\]: .* is not two of the particles"):
+            contact_forces(tables["suction"], pairs, positions, radii, SUCTION, TENSION, state=state)
 
 
 def at(gap, radii):

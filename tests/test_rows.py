@@ -172,6 +172,45 @@ def test_an_error_of_one_thread_is_told(start, monkeypatch):
         rows.over_rows(None, 100, 7, 0)
 
 
+ASK_WITH_THREADS = """
+import os, sys, threading, warnings
+import numpy as np
+from pendular.ground import rows, threads
+class Sum:
+    def of_rows(self, arguments):
+        return lambda start, stop: arguments[0].append(sum(range(start, stop)))
+rows._machine_code, rows.thread_count = (lambda *_: Sum()), (lambda: 3)
+def total():
+    parts = []
+    rows.over_rows(None, 10_000, 7, parts)
+    return sum(parts)
+wanted = sum(range(10_000))
+assert total() == wanted
+assert all(total() == wanted for _ in range(50))
+assert threading.active_count() <= 3
+askers = [threading.Thread(target=lambda: totals.append(total())) for _ in range(20)]
+totals = []
+for asker in askers:
+    asker.start()
+for asker in askers:
+    asker.join()
+assert totals == 20 * [wanted]
+warnings.simplefilter("ignore", DeprecationWarning)  # of a fork beside threads
+child = os.fork() if hasattr(os, "fork") else None
+if child == 0:
+    os._exit(0 if total() == wanted else 3)
+assert child is None or os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+assert total() == wanted
+"""
+
+
+def test_threads_are_kept_shared_by_those_who_ask_at_once_and_new_in_a_child():
+    done = subprocess.run(
+        [sys.executable, "-c", ASK_WITH_THREADS], capture_output=True, text=True, check=False, timeout=60
+    )
+    assert done.returncode == 0, done.stderr
+
+
 ASK_A_FEW = """
 import json, sys
 import numpy as np

@@ -6,7 +6,7 @@ minute. A process that keeps asking changes over once it has spent on plain answ
 
 from collections import deque
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import wait
 from contextlib import contextmanager
 from time import perf_counter
 from typing import Any, NamedTuple
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from . import background, native
 from .calling import Native
 from .compile import Kernel, has_compiler, kernel
-from .threads import thread_count
+from .threads import helpers, thread_count
 
 __all__ = ["ENTRIES", "Own", "by_machine_code", "element", "entry", "over_rows"]
 
@@ -100,14 +100,16 @@ def over_rows(
                 return
             part(start, min(count, start + chunk))
 
-    with ThreadPoolExecutor(threads - 1) as pool:  # the others; this thread takes its part
-        taking = [pool.submit(take, code.of_rows(_owned(arguments))) for _ in range(threads - 1)]
-        try:
-            take(code.of_rows(example[:-2]))
-        finally:
-            left.clear()  # after an error or an interrupt
-        for other in taking:
-            other.result()
+    pool = helpers(threads - 1)
+    taking = [pool.submit(take, code.of_rows(_owned(arguments))) for _ in range(threads - 1)]
+    try:
+        take(code.of_rows(example[:-2]))  # this thread takes its part
+    finally:
+        left.clear()  # after an error or an interrupt
+        begun = [other for other in taking if not other.cancel()]  # the others help someone else
+        wait(begun)
+    for other in begun:
+        other.result()
 
 
 def _tell_nobody(_function: Callable[..., None], _seconds: float) -> None:

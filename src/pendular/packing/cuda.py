@@ -35,7 +35,6 @@ from ..table.cuda import REGISTERS, DeviceTable, has_warps
 from ..table.kernels import Grid
 from ..table.packed import WHOLE_WARP, Packed
 from ..table.table import operands_of
-from .step import distance_of
 
 __all__ = ["DeviceForces", "carried", "contact_forces", "sums_in_order"]
 
@@ -53,6 +52,15 @@ class DeviceForces(NamedTuple):
     energy: Any  # (1,), minus the work that breaks all bridges, [J]; None if it was not asked
     separation: Any  # (contacts,): gap of each, [m]
     attraction: Any  # (contacts,): 0 where there is no bridge, NaN of a pair that is none or out of range, [N]
+
+
+@kernel
+def _distance_of(positions: Any, first: int, second: int) -> float:
+    """Between two centres."""
+    x = positions[second, 0] - positions[first, 0]
+    y = positions[second, 1] - positions[first, 1]
+    z = positions[second, 2] - positions[first, 2]
+    return math.sqrt(x * x + y * y + z * z)
 
 
 @kernel
@@ -153,7 +161,7 @@ def _total(sums: Any, parts: Any, finished: Any, totals: Any) -> None:
 @cache
 def step_loop(pull: Any, adds: bool, registers: int) -> Any:
     """Contacts, one for each thread at a time; with sums for the particles, or for those of all bridges alone."""
-    at, is_pair, distance_between = compiled(element), compiled(_is_pair), compiled(distance_of)
+    at, is_pair, distance_between = compiled(element), compiled(_is_pair), compiled(_distance_of)
 
     @cuda.jit(**at_most(registers))
     def loop(
@@ -217,7 +225,7 @@ def clear(force: Any, finished: Any) -> None:
 @cache
 def add_up() -> Any:
     """Pulls of the contacts of each particle, in their order, one particle for each thread."""
-    is_pair, distance_between = compiled(_is_pair), compiled(distance_of)
+    is_pair, distance_between = compiled(_is_pair), compiled(_distance_of)
 
     @cuda.jit
     def loop(start: Any, items: Any, pairs: Any, positions: Any, attraction: Any, force: Any) -> None:

@@ -10,11 +10,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..ground.check import in_range, instance, quantity, scalar, unmasked
+from ..ground.check import in_range, instance, numbers, quantity, scalar, unmasked
 from ..ground.compile import compiled, kernel
 from ..ground.rows import entry, over_rows
 from ..table import Table
-from .step import CHUNK, Question, add_up, distance_of, ends_of, find, put_together
+from .contacts import distance_of, ends_of
+from .finding import CHUNK, Question
+from .step import Step, take_step
 
 __all__ = ["BridgeState", "ContactForces", "contact_energy", "contact_forces"]
 
@@ -45,7 +47,7 @@ class ContactForces(NamedTuple):
 @kernel
 def _first_wrong(pairs: Integers, particles: int) -> int:
     """First pair that does not join two of the particles, or -1."""
-    for contact in range(pairs.shape[0]):
+    for contact in range(pairs.size // 2):
         low, high = ends_of(pairs, contact)
         if low < 0 or high >= particles or low == high:
             return contact
@@ -56,7 +58,7 @@ def _first_wrong(pairs: Integers, particles: int) -> int:
 def _ascends(pairs: Integers) -> bool:
     """Whether the pairs are in order, each there once."""
     ascends = True
-    for contact in range(1, pairs.shape[0]):
+    for contact in range(1, pairs.size // 2):
         ascends = ascends and ends_of(pairs, contact - 1) < ends_of(pairs, contact)
     return ascends
 
@@ -64,7 +66,7 @@ def _ascends(pairs: Integers) -> bool:
 @kernel
 def _order_of(pairs: Integers, particles: int) -> Integers:
     """Order of the pairs by their smaller, then their larger index: two counting sorts, the lesser key first."""
-    order = np.arange(pairs.shape[0])
+    order = np.arange(pairs.size // 2)
     for key in (1, 0):
         start = np.zeros(particles + 1, np.int64)
         for contact in order:
@@ -83,7 +85,7 @@ def _order_of(pairs: Integers, particles: int) -> Integers:
 @kernel
 def _first_twin(pairs: Integers) -> int:
     """First of the ordered pairs that stands there twice, or -1."""
-    for contact in range(1, pairs.shape[0]):
+    for contact in range(1, pairs.size // 2):
         if ends_of(pairs, contact - 1) == ends_of(pairs, contact):
             return contact
     return -1
@@ -92,13 +94,13 @@ def _first_twin(pairs: Integers) -> int:
 @kernel
 def _not_among(pairs: Integers, listed: Integers) -> Integers:
     """Which of ordered pairs have no equal in another ordered list."""
-    missing = np.empty(pairs.shape[0], np.int64)
+    missing = np.empty(pairs.size // 2, np.int64)
     other, count = 0, 0
-    for pair in range(pairs.shape[0]):
+    for pair in range(pairs.size // 2):
         ends = ends_of(pairs, pair)
-        while other < listed.shape[0] and ends_of(listed, other) < ends:
+        while other < listed.size // 2 and ends_of(listed, other) < ends:
             other += 1
-        if other == listed.shape[0] or ends_of(listed, other) != ends:
+        if other == listed.size // 2 or ends_of(listed, other) != ends:
             missing[count] = pair
             count += 1
     return missing[:count]
@@ -110,7 +112,7 @@ def _separation_range(
 ) -> None:
     """Gaps from start to stop, NaN where two centres coincide and no direction joins them."""
     for contact in range(start, stop):
-        first, second = pairs[contact, 0], pairs[contact, 1]
+        first, second = pairs[2 * contact], pairs[2 * contact + 1]
         distance = distance_of(positions, first, second)
         separation[contact] = distance - (radii[first] + radii[second]) if distance > 0.0 else math.nan
 
@@ -194,19 +196,15 @@ def contact_forces(
     before = _listed_state(state)
 
     asked = Question(
-        table.grid, contacts, before.pairs, before.control, centres, sizes, reach, given.reshape(-1), tension
-    )
-    found = find(asked)
-    if found.is_faulty or found.kept < len(before.pairs):  # out of order, or wrong, or bridges that have no contact
-        asked = _in_question(table, asked, given)
-        found = find(asked)
-    bridges = put_together(asked.pairs, found)
-    force, virial = add_up(bridges, centres)
-    if np.isnan(virial).any():  # a bridge is refused, in words
-        _attractions(table, BridgeState(bridges.pairs, bridges.control), bridges.separation, sizes, tension)
-    return ContactForces(
-        BridgeState(bridges.pairs, bridges.control), force, virial, bridges.separation, bridges.attraction
-    )
+        table.grid, contacts.reshape(-1), before.pairs.reshape(-1), before.control, centres.reshape(-1), sizes, reach,
+        given.reshape(-1), tension,
+    )  # fmt: skip
+    bridges, force, virial = _step(table, asked, given)
+    held = BridgeState(bridges.pairs.reshape(-1, 2), bridges.control)
+    if not np.isfinite(virial).all():
+        _refuse_particles(centres, sizes)
+        _attractions(table, held, bridges.separation, sizes, tension)  # refuses a bridge, in words
+    return ContactForces(held, force.reshape(-1, 3), virial, bridges.separation, bridges.attraction)
 
 
 def contact_energy(
@@ -244,6 +242,7 @@ def contact_energy(
     """
     instance("table", table, Table)
     centres, sizes = _particles(positions, radii)
+    _refuse_particles(centres, sizes)
     bridges = _checked(_listed_state(state), len(sizes))
     if not bridges.control.size:
         return 0.0
@@ -264,27 +263,37 @@ def _attractions(
 
 def _separations(pairs: Integers, positions: Floats, radii: Floats) -> Floats:
     separation = np.empty(len(pairs))
-    over_rows(_separation_range, len(pairs), CHUNK, pairs, positions, radii, separation)
+    over_rows(_separation_range, len(pairs), CHUNK, pairs.reshape(-1), positions.reshape(-1), radii, separation)
     if np.isnan(np.sum(separation)):
         first, second = pairs[np.flatnonzero(np.isnan(separation))[0]]
         raise ValueError(f"positions: particles {first} and {second} have the same centre")
     return separation
 
 
-def _in_question(table: Table, asked: Question, given: Floats) -> Question:
+def _step(table: Table, asked: Question, given: Floats) -> Step:
+    """Answer a question as it is, or in order."""
+    step = take_step(asked)
+    if step is None:
+        _refuse_particles(asked.positions, asked.radii)
+        step = take_step(_in_order(table, asked, given))
+    assert step is not None  # all is in order
+    return step
+
+
+def _in_order(table: Table, asked: Question, given: Floats) -> Question:
     """The same question with pairs and bridges in their order, all of them contacts; wrong ones are refused."""
-    contacts, order = _in_order("pairs", asked.pairs, len(asked.radii))
-    before = _checked(BridgeState(asked.former_pairs, asked.former_control), len(asked.radii))
+    contacts, order = _ordered("pairs", asked.pairs.reshape(-1, 2), len(asked.radii))
+    before = _checked(BridgeState(asked.former_pairs.reshape(-1, 2), asked.former_control), len(asked.radii))
     _separations(contacts, asked.positions, asked.radii)
-    missing = compiled(_not_among)(before.pairs, contacts)
+    missing = compiled(_not_among)(before.pairs.reshape(-1), contacts.reshape(-1))
     if missing.size:
         is_held = table.control == "volume" or given.ndim > 0
         last = before.control[missing] if is_held else np.full(missing.size, given)
         _refuse_standing(table, BridgeState(before.pairs[missing], last), asked.positions, asked.radii, asked.tension)
         before = BridgeState(np.delete(before.pairs, missing, axis=0), np.delete(before.control, missing))
     return asked._replace(
-        pairs=contacts,
-        former_pairs=before.pairs,
+        pairs=contacts.reshape(-1),
+        former_pairs=before.pairs.reshape(-1),
         former_control=before.control,
         given=asked.given if given.ndim == 0 else np.ascontiguousarray(given[order]),
     )
@@ -302,14 +311,19 @@ def _refuse_standing(
 
 
 def _particles(positions: ArrayLike, radii: ArrayLike) -> tuple[Floats, Floats]:
-    sizes = quantity("radii", radii, "m")
-    if sizes.ndim != 1:
+    """Centres and radii as arrays that belong together; a look at their numbers is left to the sums over them."""
+    sizes, centres = numbers("radii", radii, "m"), numbers("positions", positions, "m")
+    if sizes.ndim != 1 or not sizes.size:
         raise ValueError(f"radii: an array of shape {sizes.shape} is not one radius for each particle")
-    in_range("radii", sizes, 0.0, brackets="(]", unit="m")
-    centres = quantity("positions", positions, "m")
     if centres.shape != (sizes.size, 3):
         raise ValueError(f"positions: an array of shape {centres.shape} is not of shape ({sizes.size}, 3)")
     return np.ascontiguousarray(centres), np.ascontiguousarray(sizes)
+
+
+def _refuse_particles(positions: Floats, radii: Floats) -> None:
+    """Refuse positions and radii that are none."""
+    in_range("radii", quantity("radii", radii, "m"), 0.0, brackets="(]", unit="m")
+    quantity("positions", positions, "m")
 
 
 def _listed(name: str, pairs: Any) -> Integers:
@@ -323,17 +337,18 @@ def _listed(name: str, pairs: Any) -> Integers:
     return np.ascontiguousarray(array, np.int64)
 
 
-def _in_order(name: str, listed: Integers, particles: int) -> tuple[Integers, Integers | slice]:
+def _ordered(name: str, listed: Integers, particles: int) -> tuple[Integers, Integers | slice]:
     """Pairs in the order of their particles, and where each of them stood."""
-    wrong = compiled(_first_wrong)(listed, particles)
+    flat = listed.reshape(-1)
+    wrong = compiled(_first_wrong)(flat, particles)
     if wrong >= 0:
         pair = tuple(listed[wrong].tolist())
         raise ValueError(f"{name}[{wrong}]: {pair} is not two of the particles 0 to {particles - 1}")
-    if compiled(_ascends)(listed):
+    if compiled(_ascends)(flat):
         return listed, slice(None)
-    order = compiled(_order_of)(listed, particles)
+    order = compiled(_order_of)(flat, particles)
     ordered = listed.take(order, axis=0)
-    twin = compiled(_first_twin)(ordered)
+    twin = compiled(_first_twin)(ordered.reshape(-1))
     if twin >= 0:
         raise ValueError(f"{name}: {tuple(ordered[twin].tolist())} is there twice")
     return ordered, order
@@ -361,5 +376,5 @@ def _listed_state(state: BridgeState | None) -> BridgeState:
 
 def _checked(state: BridgeState, particles: int) -> BridgeState:
     """State with its bridges in the order of their particles."""
-    pairs, order = _in_order("state.pairs", state.pairs, particles)
+    pairs, order = _ordered("state.pairs", state.pairs, particles)
     return BridgeState(pairs, state.control[order])

@@ -27,14 +27,14 @@ BLOCK = 64
 _CHUNK = 65536  # contacts that one thread takes at a time
 
 
-def block_room() -> tuple[Floats, Integers]:
-    """Room for `answer_block`: numbers and cells."""
-    return np.empty((13, BLOCK)), np.empty((3, BLOCK), np.int64)
+def block_room(contacts: int = BLOCK) -> tuple[Floats, Integers]:
+    """Room for `answer_block`, for so many contacts at a time: numbers and cells."""
+    return np.empty((13, contacts)), np.empty((3, contacts), np.int64)
 
 
 @kernel
 def answer_block(asked: int, grid: Grid, numbers: Floats, cells: Integers, count: int) -> None:
-    """Forces, or what goes with them, of up to `BLOCK` contacts.
+    """Forces, or what goes with them, of as many contacts as the first cache holds.
 
     The first five rows of the numbers are the operands, the last one is the answer; all are worked in.
     """
