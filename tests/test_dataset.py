@@ -222,6 +222,20 @@ def test_store_equals_memory(tmp_path, short_chunks):
         assert stored.identical(copied)
 
 
+def test_small_pairs_share_a_chunk(tmp_path, monkeypatch):
+    """Two of three angles in a chunk: a store that lost a chunk mends both, and the last chunk is not full."""
+    grid = SMALL | {"contact_angle": np.deg2rad([0.0, 20.0, 40.0])}
+    path, whole = tmp_path / "bridges.zarr", ds.make_dataset(**grid)
+    monkeypatch.setattr(stores, "_POINTS_PER_CHUNK", 2 * 24 * 16 + 15)
+    assert whole.identical(ds.make_dataset(path, **grid))
+    assert zarr.open_array(path, path="force_star", mode="r").chunks == (1, 2, 24, 16)
+    asked = []
+    monkeypatch.setattr(stores, "compute", lambda *pair: asked.append(pair[:2]) or variables.compute(*pair))
+    chunks_of(path, "force_star")[0].unlink()
+    assert whole.identical(ds.make_dataset(path, **grid))
+    assert asked == [(1.0, 0.0), (1.0, pytest.approx(np.deg2rad(20.0)))]
+
+
 def test_an_interruption_costs_only_the_chunk_that_was_under_way(tmp_path, short_chunks, monkeypatch):
     path = tmp_path / "bridges.zarr"
     compute, calls = variables.compute, Counter()

@@ -19,17 +19,11 @@ _COMPUTED = "computed"  # set for a block of rows after all of its variables are
 
 
 class Block(NamedTuple):
-    """Rows of one pair: the unit of work, and one chunk of every variable on disk."""
+    """Rows of one pair, or all rows of some: the unit of work, and one chunk of every variable on disk."""
 
     ratio: int
-    angle: int
-    start: int
-    stop: int
-
-    @property
-    def region(self) -> tuple[int, int, slice]:
-        """Where the block lies among the first three dimensions."""
-        return self.ratio, self.angle, slice(self.start, self.stop)
+    angles: slice
+    rows: slice
 
 
 @contextmanager
@@ -77,11 +71,12 @@ def _write_empty(path: Path, grid: Coordinates) -> None:
     for name, values in grid.items():
         with zarr.config.set(_ALL_CHUNKS):
             add(name, (name,), values.shape, COORDINATES[name], dtype=np.float64, fill_value=np.nan)[:] = values
-    ratios = grid[DIMS[3]].size
-    rows = min(max(_POINTS_PER_CHUNK // ratios, 1), grid[DIMS[2]].size)
+    _, angles, rows, columns = (grid[dim].size for dim in DIMS)
+    in_chunk = max(_POINTS_PER_CHUNK // columns, 1)  # rows: a file for each pair would take longer than its bridges
+    chunk = (1, min(max(in_chunk // rows, 1), angles), min(in_chunk, rows))
     for name, *label in LABELS:
-        add(name, DIMS, (1, 1, rows, ratios), label, dtype=np.float64, fill_value=np.nan)
-    add(_COMPUTED, DIMS[:3], (1, 1, rows), dtype=bool, fill_value=False)
+        add(name, DIMS, (*chunk, columns), label, dtype=np.float64, fill_value=np.nan)
+    add(_COMPUTED, DIMS[:3], chunk, dtype=bool, fill_value=False)
 
 
 def _checked() -> tuple[Any, ...]:
@@ -136,25 +131,26 @@ def refuse_other(store: Path, grid: Coordinates) -> None:
 
 
 def missing(store: Path) -> list[Block]:
-    """Blocks of a store that have not been computed or cannot be read, all of a pair in turn."""
+    """Blocks of a store that have not been computed or cannot be read, all of a size ratio in turn."""
     import zarr
 
     with damage_told("path", str(store)):
         group: Any = zarr.open_group(store, mode="r")
         done = np.asarray(group[_COMPUTED][:], bool)
-        rows = group[_COMPUTED].chunks[-1]
+        _, angles, rows = group[_COMPUTED].chunks
     blocks = (
-        Block(ratio, angle, start, min(start + rows, done.shape[2]))
-        for ratio, angle in np.ndindex(*done.shape[:2])
-        for start in range(0, done.shape[2], rows)
+        Block(ratio, slice(angle, min(angle + angles, done.shape[1])), slice(row, min(row + rows, done.shape[2])))
+        for ratio in range(done.shape[0])
+        for angle in range(0, done.shape[1], angles)
+        for row in range(0, done.shape[2], rows)
     )
-    return [block for block in blocks if not (done[block.region].all() and _is_whole(group, block))]
+    return [block for block in blocks if not (done[block].all() and _is_whole(group, block))]
 
 
 def _is_whole(group: Any, block: Block) -> bool:
     """Whether all chunks of a block are there, for a missing one reads as NaN, and none is damaged."""
     try:
-        return all(np.isfinite(group[name][block.region]).any() for name in VARIABLES)
+        return all(np.isfinite(group[name][block]).any() for name in VARIABLES)
     except Exception:  # each codec raises an error of its own
         return False
 
@@ -181,9 +177,9 @@ def fill(store: Opened, block: Block) -> None:
     import zarr
 
     ratios, angles, fillings, neck_ratios = store.axes
-    rows = fillings[block.start : block.stop]
-    values = compute(float(ratios[block.ratio]), float(angles[block.angle]), rows, neck_ratios)
+    ratio, rows = float(ratios[block.ratio]), fillings[block.rows]
+    pairs = [compute(ratio, float(angle), rows, neck_ratios) for angle in angles[block.angles]]
     with zarr.config.set(_ALL_CHUNKS):
-        for array, content in zip(store.arrays, values, strict=True):
-            array[block.region] = content
-        store.computed[block.region] = True
+        for array, *content in zip(store.arrays, *pairs, strict=True):
+            array[block] = np.stack(content)
+        store.computed[block] = True

@@ -53,6 +53,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     arguments : sequence of str, optional
         Those of the process by default.
     """
+    if "numpy" not in sys.modules:  # no command has matrices for the threads of its BLAS, which turn idly for a while
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     try:
         status = app(arguments, prog_name="pendular", standalone_mode=False)
         sys.stdout.flush()
