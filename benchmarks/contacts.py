@@ -10,7 +10,6 @@ import statistics
 import tempfile
 import time
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -21,13 +20,14 @@ import pendular as pl
 from benchmarks.sections import put
 from pendular.exact import batch as exact
 from pendular.exact.equations import SUCTION
-from pendular.ground.threads import thread_count
+from pendular.ground.threads import helpers, thread_count
 from pendular.laws import willett2000, zhao2020
 
 CONTACT_ANGLE = math.radians(20)
 GAMMA, MEAN_RADIUS, REDUCED_SUCTION = 0.0728, 50e-6, 100.0
 SCATTERED = (1.0, 1e6)  # reduced suctions
 SEED, COUNT, ROUNDS = 20261122, 10_000_000, 5
+WARM_TURNS, TURNS = 20, 60  # of a step and its rival
 WARM_UP = 0.5  # [s]
 # Contact angles, control and ranges of tables that are built.
 TABLES: tuple[tuple[object, str, dict[str, tuple[float, float]]], ...] = (
@@ -101,9 +101,10 @@ def willett_range(theta, volume, gamma, separation, radius1, radius2, out, start
 
 def in_chunks(function: Callable[..., None], count: int, chunk: int, *arguments: object) -> None:
     """Run machine code over rows, by chunks that threads share, as the library does with its own."""
-    with ThreadPoolExecutor(thread_count()) as pool:
-        for _ in pool.map(lambda at: function(*arguments, at, min(count, at + chunk)), range(0, count, chunk)):
-            pass
+    for _ in helpers(thread_count()).map(
+        lambda at: function(*arguments, at, min(count, at + chunk)), range(0, count, chunk)
+    ):
+        pass
 
 
 def median_ns(function: Callable[[], object], count: int) -> float:
@@ -117,6 +118,17 @@ def median_ns(function: Callable[[], object], count: int) -> float:
         function()
         times.append(time.perf_counter() - begin)
     return statistics.median(times) / count * 1e9
+
+
+def by_turns(functions: tuple[Callable[[], object], ...], count: int) -> list[float]:
+    """Median times a contact of functions that run one after another, [ns]: a machine does not keep its pace."""
+    times: list[list[float]] = [[] for _ in functions]
+    for turn in range(WARM_TURNS + TURNS):
+        for function, took in zip(functions, times, strict=True):
+            begin = time.perf_counter()
+            function()
+            took += [time.perf_counter() - begin] * (turn >= WARM_TURNS)
+    return [statistics.median(took) / count * 1e9 for took in times]
 
 
 def spline(table: pl.Table, suction: float) -> tuple[Callable[..., np.ndarray], str]:
@@ -166,8 +178,13 @@ def scattered_cost(random: np.random.Generator, table: pl.Table, chunk: int) -> 
     separation = random.uniform(0.0, 1.1, count) * table.rupture_distance(suction, radius1, radius2, GAMMA)
     out, cosine = np.empty(count), math.cos(CONTACT_ANGLE)
     asked = (FIT, cosine, suction, GAMMA, separation, radius1, radius2, out)
-    rival = median_ns(lambda: in_chunks(scattered_range, count, chunk, *asked), count)
-    cost = median_ns(lambda: table.force(separation, suction, radius1, radius2, GAMMA, out=out), count)
+    rival, cost = by_turns(
+        (
+            lambda: in_chunks(scattered_range, count, chunk, *asked),
+            lambda: table.force(separation, suction, radius1, radius2, GAMMA, out=out),
+        ),
+        count,
+    )
     return cost, cost / rival
 
 
@@ -267,8 +284,14 @@ def measure() -> str:
     pairs, centres, radii = packing(random)
     reach = 0.5 * rupture
     before = pl.contact_forces(table, pairs, centres, radii, suction, GAMMA, formation_distance=reach).state
-    step = median_ns(
-        lambda: pl.contact_forces(table, pairs, centres, radii, suction, GAMMA, state=before, formation_distance=reach),
+    some = tuple(array[: len(pairs)] for array in ends)
+    rival, step = by_turns(
+        (
+            lambda: in_chunks(paper_range, len(pairs), chunk, FIT, cosine, suction, GAMMA, *some),
+            lambda: pl.contact_forces(
+                table, pairs, centres, radii, suction, GAMMA, state=before, formation_distance=reach
+            ),
+        ),
         len(pairs),
     )
     scattered, scattered_ratio = scattered_cost(random, table, chunk)
@@ -295,11 +318,12 @@ share of that which a contact's {BYTES} bytes take.
 {chr(10).join(lines)}
 
 Where each contact has a suction of its own, scattered over reduced ones of {SCATTERED[0]:g} to {SCATTERED[1]:g}, the
-table takes {scattered:.1f} ns, {scattered_ratio:.2f} times the paper's form on the same contacts.
+table takes {scattered:.1f} ns, {scattered_ratio:.2f} times the paper's form on the same contacts: medians of {TURNS}
+turns of both.
 
 A whole step of `pendular.contact_forces`, from a list of {len(pairs):.1e} pairs and {len(before.pairs):.1e} bridges
-of the step before to forces, virial and bridges of this one, took {step:.0f} ns a pair, {step / reference:.2f} times
-the paper's form of a contact.
+of the step before to forces, virial and bridges of this one, took {step:.0f} ns a pair, {step / rival:.2f} times
+the paper's form on as many contacts: medians of {TURNS} turns of both.
 
 The table was built in {build:.1f} s, for reduced suctions from {table.reduced[0]:g} to {table.reduced[1]:g} and all
 size ratios up to the plane; its forces take {mib:.1f} MiB. On {bound.bridges} bridges that it was not made from, its
