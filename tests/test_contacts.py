@@ -173,8 +173,8 @@ def chains(seed):
     return rng.permutation(pairs), positions, np.full(len(positions), 100e-6)
 
 
-@pytest.mark.parametrize("chunks", [1, 2])
-def test_runs_of_contacts_change_no_bit(tables, monkeypatch, chunks):
+@pytest.mark.parametrize(("chunks", "threads"), [(1, 3), (2, 1), (3, 2)])
+def test_runs_of_contacts_change_no_bit(tables, monkeypatch, chunks, threads):
     pairs, positions, radii = chains(17)
     assert len(pairs) > 3 * CHUNK
     asked = (tables["suction"], pairs, positions, radii, SUCTION, TENSION)
@@ -185,6 +185,8 @@ def test_runs_of_contacts_change_no_bit(tables, monkeypatch, chunks):
     assert not whole.force[~near].any()
     assert not lies.all()
     monkeypatch.setattr("pendular.packing.step.run_length", lambda: chunks * CHUNK)
+    for module in ("ground.rows", "packing.finding", "packing.adding"):
+        monkeypatch.setattr(f"pendular.{module}.thread_count", lambda: threads)
     for state in (None, whole.state, BridgeState(whole.state.pairs[:100], whole.state.control[:100])):
         part = contact_forces(*asked, formation_distance=0.5e-6, state=state)
         for name in ("force", "virial", "separation", "attraction"):
