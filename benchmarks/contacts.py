@@ -123,12 +123,12 @@ def median_ns(function: Callable[[], object], count: int) -> float:
 def by_turns(functions: tuple[Callable[[], object], ...], count: int) -> list[float]:
     """Median times a contact of functions that run one after another, [ns]: a machine does not keep its pace."""
     times: list[list[float]] = [[] for _ in functions]
-    for turn in range(WARM_TURNS + TURNS):
+    for _ in range(WARM_TURNS + TURNS):
         for function, took in zip(functions, times, strict=True):
             begin = time.perf_counter()
             function()
-            took += [time.perf_counter() - begin] * (turn >= WARM_TURNS)
-    return [statistics.median(took) / count * 1e9 for took in times]
+            took.append(time.perf_counter() - begin)
+    return [statistics.median(took[WARM_TURNS:]) / count * 1e9 for took in times]
 
 
 def spline(table: pl.Table, suction: float) -> tuple[Callable[..., np.ndarray], str]:

@@ -96,14 +96,13 @@ def _measure(asked: Question, room: _Room, last_key: int, begin: int, count: int
     """Measure contacts, and return the last particle of them, or -1 where one is none or out of order."""
     pairs, radii, highest = asked.pairs[2 * begin : 2 * (begin + count)], asked.radii, -1
     for i in range(count):
-        first, second = pairs[2 * i], pairs[2 * i + 1]
-        low, high = (first, second) if first < second else (second, first)
+        low, high = ends_of(pairs, i)
         key = low * radii.size + high
         if not (low >= 0 and low != high and high < radii.size and key > last_key):
             return -1
         last_key, highest = key, max(highest, high)
-        x, y, z = arm_of(asked.positions, first, second)
-        room.key[i], room.radii[i], room.gap[i] = key, radii[first] + radii[second], x * x + y * y + z * z
+        x, y, z = arm_of(asked.positions, low, high)
+        room.key[i], room.radii[i], room.gap[i] = key, radii[low] + radii[high], x * x + y * y + z * z
     are_apart = True
     for i in range(count):
         distance = math.sqrt(room.gap[i])
