@@ -156,10 +156,10 @@ def test_lanes_are_read_by_pairs_as_they_were_packed(folder):
     for cell in random.integers(0, grid.rupture.size // RUPTURE_CELL, 20).tolist():
         x, y, t = random.uniform(-1.0, 1.0, 3).tolist()
         lanes = tuple(lane_of_force(packed.force, cell * CELL + 2 * lane, x, y) for lane in range(LANES))
-        expected = compiled(in_three)(grid.force, cell * CELL, x, y, t)
+        expected = in_three(grid.force, cell, x, y, t)
         assert compiled(by_halves)(lanes, t) == pytest.approx(expected, rel=1e-14)
         lanes = tuple(lane_of_rupture(packed.rupture, cell * RUPTURE_CELL + 2 * lane, y) for lane in range(LANES))
-        expected = compiled(in_two)(grid.rupture, cell * RUPTURE_CELL, x, y)
+        expected = compiled(in_two)(grid.rupture, cell, x, y)
         assert compiled(by_halves)(lanes, x) == pytest.approx(expected, rel=1e-14)
 
 

@@ -10,7 +10,6 @@ import warnings
 import zlib
 from contextlib import suppress
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -20,6 +19,7 @@ import pendular as pl
 from pendular.codes.c_header import c_header, table_header
 from pendular.table import binary, kernels, storage
 from pendular.table.channels import known
+from pendular.table.polynomial import Cells, cell_count, coefficients_of
 from table_reader import (
     ENERGY,
     FORCE,
@@ -87,6 +87,12 @@ def asked_of(table, asked, contact):
 # Python ------------------------------------------------------------------------------------------------------------
 
 
+def parts_of(grid):
+    """Arrays and numbers."""
+    for value in grid:
+        yield from value if isinstance(value, Cells) else (value,)
+
+
 def test_the_file_gives_the_same_table(table, tmp_path):
     table.save(tmp_path / "w.bridges")
     table.save(tmp_path / "w.npz")
@@ -95,7 +101,7 @@ def test_the_file_gives_the_same_table(table, tmp_path):
         found = pl.load_table(path)
         for name in ("contact_angle", "control", "reduced", "radius_ratio", "tolerance", "bound", "version"):
             assert getattr(found, name) == getattr(table, name), name
-        for mine, other in zip(found.grid, table.grid, strict=True):
+        for mine, other in zip(parts_of(found.grid), parts_of(table.grid), strict=True):
             assert np.array_equal(mine, other)
             assert getattr(mine, "dtype", None) == getattr(other, "dtype", None)
     assert (tmp_path / "renamed.npz").stat().st_size % 64 == 4
@@ -115,17 +121,17 @@ def test_each_truncation_and_each_change_is_refused(content):
         damaged[place] ^= 0x10
 
 
-def assert_all_cells_are_there(cuts, arrays):
+def assert_all_cells_are_there(cuts, rupture, force, liquid):
     assert (cuts >= 0).all()
     size_cells = cuts[:, kernels.SIZE_CELLS] + cuts[:, kernels.U_COUNT]
     cells = cuts[:, kernels.CELLS] + cuts[:, kernels.U_COUNT] * cuts[:, kernels.Q_COUNT]
-    assert size_cells.max() * 64 == arrays.rupture.size
-    assert cells.max() * 160 == arrays.force.size == arrays.liquid.size
+    assert size_cells.max() * 64 == rupture.size
+    assert cells.max() * 160 == force.size == liquid.size
 
 
 def start_of_numbers(content, table):
     grid = table.grid
-    return len(content) - 4 - grid.rupture.nbytes - grid.force.nbytes - grid.liquid.nbytes
+    return len(content) - 4 - grid.rupture.nbytes - 2 * 8 * 160 * cell_count(grid.force)
 
 
 def test_wrong_headers_under_a_right_checksum_are_refused_or_held(content, suction_table):
@@ -142,7 +148,7 @@ def test_wrong_headers_under_a_right_checksum_are_refused_or_held(content, sucti
         if not arrays:
             continue
         opened += 1
-        assert_all_cells_are_there(arrays["cuts"], SimpleNamespace(**arrays))
+        assert_all_cells_are_there(*(arrays[name] for name in ("cuts", "rupture", "force", "liquid")))
     assert 0 < opened < 1500
 
 
@@ -177,7 +183,7 @@ def test_each_truncation_and_each_change_of_an_archive_is_refused_or_harmless(ar
         archive.write_bytes(changed(content, int(place), bytes([content[place] ^ 0x10])))
         found = loaded(archive)
         if found is not None:
-            assert all(np.array_equal(mine, other) for mine, other in zip(found.grid, suction_table.grid, strict=True))
+            assert all(map(np.array_equal, parts_of(found.grid), parts_of(suction_table.grid)))
             assert found.bound == suction_table.bound
 
 
@@ -241,7 +247,8 @@ def test_wrong_cuts_of_an_archive_under_a_right_checksum_are_refused_or_held(arc
         table = loaded(archive)
         if table is not None:
             opened += 1
-            assert_all_cells_are_there(table.grid.cuts, table.grid)
+            force, liquid = map(coefficients_of, (table.grid.force, table.grid.liquid))
+            assert_all_cells_are_there(table.grid.cuts, table.grid.rupture, force, liquid)
     assert 0 < opened < 300
 
 
@@ -324,8 +331,11 @@ def test_c_is_equal_to_the_compiled_table(table, options, tmp_path):
         # The root of 1 - D/D_c amplifies the rounding of D_c as rupture comes near: by 1/q, its rate by 1/q³.
         amplified = {RUPTURE: 1.0, STIFFNESS: 1.0 + q**-3}.get(asked, 1.0 + 1.0 / q)
         error = np.where(is_there, np.abs(found - expected) / unit / amplified, 0.0)
-        print(asked, error.max())
-        assert error.max() < 1e-15, asked
+        bound = {RUPTURE: 1e-12, LIQUID: table.bound.liquid}.get(
+            asked, table.bound.force
+        )  # most is of single precision
+        print(asked, error.max() / bound)
+        assert error.max() < 1e-3 * bound, asked
 
 
 @needs_c
@@ -417,7 +427,7 @@ def test_a_further_channel_is_answered_by_its_name(reader, suction_table, conten
     added = struct.pack("<24s16s40s2d4i", b"wetness", b"m2", b"nothing", 3.0, 0.5, 1, 0, 2, 1)
     headers = content[:36] + struct.pack("<I", 4) + content[40 : 176 + 3 * 112] + added + rows
     padded = headers + bytes(-len(headers) % 64)
-    longer = sealed(padded + content[start:-4] + suction_table.grid.force.tobytes() + bytes(4))
+    longer = sealed(padded + content[start:-4] + coefficients_of(suction_table.grid.force).tobytes() + bytes(4))
     path = tmp_path / "w.bridges"
     path.write_bytes(longer)
     opened = reader.open(path)
@@ -430,7 +440,7 @@ def test_a_further_channel_is_answered_by_its_name(reader, suction_table, conten
     expected = force / (2.0 * math.pi * contact[4] * mean) * 3.0 * mean**2 * np.sqrt(star)
     np.testing.assert_allclose(wetness[is_there], expected[is_there], rtol=1e-14)
     assert np.isnan(wetness[~is_there]).all()
-    assert np.array_equal(pl.load_table(path).grid.force, suction_table.grid.force)
+    assert all(map(np.array_equal, pl.load_table(path).grid.force, suction_table.grid.force))
 
 
 def more_of(table, contact):
@@ -464,7 +474,7 @@ def test_more_channels_are_exact_within_their_bounds(reader, name, tmp_path):
     plain = (tmp_path / "w.bridges").read_bytes()
     table.save(tmp_path / "w.bridges", channels=names)
     assert (tmp_path / "w.bridges").stat().st_size > 2 * len(plain)
-    assert np.array_equal(pl.load_table(tmp_path / "w.bridges").grid.force, table.grid.force)
+    assert all(map(np.array_equal, pl.load_table(tmp_path / "w.bridges").grid.force, table.grid.force))
     opened = reader.open(tmp_path / "w.bridges")
     told = {name: bound for name, bound, _ in binary.told_channels(tmp_path / "w.bridges")}
     contact = np.array(contacts_of(table, 200))

@@ -14,7 +14,7 @@ from .. import __version__
 from ..table.binary import CHANNELS
 from ..table.kernels import CELLS, Q_COUNT, SIZE_CELLS, U_COUNT, Grid
 from ..table.measure import SAFETY
-from ..table.polynomial import CELL, LANES, RUPTURE_CELL
+from ..table.polynomial import CELL, LANES, RUPTURE_CELL, coefficients_of
 from ..table.task import refuse_dry
 
 if TYPE_CHECKING:
@@ -164,7 +164,8 @@ def _ratios(grid: Grid) -> str:
 
 def _numbers(grid: Grid) -> dict[str, str]:
     """Rows and coefficients, these in units of the largest power of two that divides all of a row."""
-    arrays = [grid.rupture.reshape(-1, RUPTURE_CELL), grid.force.reshape(-1, CELL), grid.liquid.reshape(-1, CELL)]
+    force, liquid = (coefficients_of(cells).reshape(-1, CELL) for cells in (grid.force, grid.liquid))
+    arrays = [grid.rupture.reshape(-1, RUPTURE_CELL), force, liquid]
     scaled = [array.copy() for array in arrays]
     units = np.empty((len(grid.lines), len(arrays)))
     for row, cut in enumerate(grid.cuts):

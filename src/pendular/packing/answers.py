@@ -16,7 +16,7 @@ from ..ask.pair import Pair
 from ..ground.rows import element, entry, over_rows
 from ..table import Table, ToleranceWarning, tabulate
 from ..table.kernels import Grid, cell_of, find, gap_of, liquid_unit, q_of
-from ..table.polynomial import CELL, in_three
+from ..table.polynomial import in_three
 from .neighbours import Neighbours
 from .setting import Setting
 from .shape import COLUMNS, LEAST_SUCTION, potential_of, shape_range
@@ -240,9 +240,9 @@ def _table_range(
         if gap_of(gaps[row]) >= rupture:
             continue
         cell, t = cell_of(grid, place, q_of(gaps[row], rupture, bend))
-        force = 2.0 * math.pi * tension * pair.radius * in_three(grid.force, cell * CELL, place.x, place.y, t)
+        force = 2.0 * math.pi * tension * pair.radius * in_three(grid.force, cell, place.x, place.y, t)
         unit = liquid_unit(grid, pair.control, pair.radius, tension)
-        other = unit * in_three(grid.liquid, cell * CELL, place.x, place.y, t)
+        other = unit * in_three(grid.liquid, cell, place.x, place.y, t)
         volume, suction = (held, other) if grid.is_volume else (other, held)
         forces[row], volumes[row] = force, volume
         if suctions.size:

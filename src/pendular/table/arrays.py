@@ -14,7 +14,7 @@ from ..ground.compile import kernel
 from ..ground.rows import Own, element, entry, over_rows
 from . import kernels
 from .kernels import Grid, Place, bend_of, cell_of, if_bridged, liquid_unit, place_of, q_of, reduce_pair
-from .polynomial import CELL, RUPTURE_CELL, in_three, in_two
+from .polynomial import in_three, in_two
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -55,15 +55,26 @@ def answer_block(asked: int, grid: Grid, numbers: Floats, cells: Integers, count
     for i in range(count):
         row[i], size_cell[i], at_x[i], at_y[i] = place_of(grid, control[i], size[i], row[i])
     for i in range(count):
-        star[i] = in_two(grid.rupture, size_cell[i] * RUPTURE_CELL, at_x[i], at_y[i])
+        star[i] = in_two(grid.rupture, size_cell[i], at_x[i], at_y[i])
     for i in range(count):
         rupture[i] *= star[i]
         q[i] = q_of(separation[i], rupture[i], bend_of(grid, control[i], star[i]))
     for i in range(count):
         cell[i], at_t[i] = cell_of(grid, Place(row[i], size_cell[i], at_x[i], at_y[i]), q[i])
     for i in range(count):
-        value = unit[i] * in_three(coefficients, cell[i] * CELL, at_x[i], at_y[i], at_t[i])
+        value = unit[i] * in_three(coefficients, cell[i], at_x[i], at_y[i], at_t[i])
         star[i] = if_bridged(value, separation[i], rupture[i], beyond)
+
+
+@kernel
+def _copy(part: Floats, row: Floats, count: int) -> None:
+    """Copy elements, or one of them to all places, by vector instructions."""
+    if part.size == 1:
+        for i in range(count):
+            row[i] = part[0]
+    else:
+        for i in range(count):
+            row[i] = part[i]
 
 
 @entry(plain_cost=1e-4, patience=1.0)
@@ -74,11 +85,9 @@ def block_range(
     for begin in range(start, stop, BLOCK):
         count = min(BLOCK, stop - begin)
         for j, operand in enumerate(x):
-            for i in range(count):
-                numbers[j, i] = element(operand, begin + i)
+            _copy(operand[begin:] if operand.size > 1 else operand, numbers[j], count)
         answer_block(asked, grid, numbers, cells, count)
-        for i in range(count):
-            out[begin + i] = numbers[-1, i]
+        _copy(numbers[-1], out[begin : begin + count], count)
 
 
 @entry(plain_cost=1e-4, patience=1.0)

@@ -22,7 +22,18 @@ from .cuts import (
     truncated,
 )
 from .kernels import Grid
-from .polynomial import CELL, CONTROL_TERMS, LANES, RUPTURE_CELL, RUPTURE_SIZE_TERMS, SIZE_TERMS, aligned
+from .polynomial import (
+    CELL,
+    CONTROL_TERMS,
+    LANES,
+    POWERS,
+    RUPTURE_CELL,
+    RUPTURE_SIZE_TERMS,
+    SIZE_TERMS,
+    aligned,
+    cells_from,
+    to_single,
+)
 from .samples import Sample, curves_of, sample_octave
 from .task import Task
 
@@ -189,11 +200,10 @@ def cells_of(values: Floats, tolerance: float) -> Floats:
     """Coefficients of quantities, (quantities, all), from values: (quantities, row, size, q, x, y, t)."""
     shortened = np.moveaxis(truncated(np.moveaxis(values, (4, 5), (-2, -1))), (-2, -1), (4, 5))
     coefficients = _powers(_powers(_powers(shortened, 4), 5), 6)
-    powers = [(i, j) for i in range(CONTROL_TERMS) for j in range(SIZE_TERMS) if i + j < SIZE_TERMS][::-1]
-    cells = coefficients[:, :, :, :, *np.transpose(powers)].reshape(len(values), -1, len(powers), LANES)
+    cells = coefficients[:, :, :, :, *np.transpose(POWERS)].reshape(len(values), -1, len(POWERS), LANES)
     largest = np.abs(values).max(axis=(2, 3, 4, 5, 6))  # of a control cell: at contact
     precision = np.repeat(_ROUNDING * tolerance * largest, cells.shape[1] // largest.shape[1], axis=1)
-    return np.stack([_rounded(cells[i], precision[i]).ravel() for i in range(len(values))])
+    return np.stack([to_single(_rounded(cells[i], precision[i])).ravel() for i in range(len(values))])
 
 
 def octaves_of_rows(grid: Grid, count: int) -> NDArray[np.int64]:
@@ -238,7 +248,7 @@ def _grid_of(
 ) -> Grid:
     """The grid of a task, from its headers and coefficients; its rows begin at an octave."""
     return Grid(
-        np.array(lines), np.array(cuts, np.int64), aligned(rupture), aligned(values[0]), aligned(values[1]),
+        np.array(lines), np.array(cuts, np.int64), aligned(rupture), cells_from(values[0]), cells_from(values[1]),
         shift, shifted_bits(2.0**exponent, shift) - 1, rows,
         task.low / _SLACK, task.high * _SLACK, 1.0 / task.high_ratio / _SLACK, _SLACK / task.low_ratio,
         task.sides, task.is_volume,

@@ -14,7 +14,7 @@ from .build import cells_of
 from .cuts import chebyshev, controls_at
 from .kernels import CELLS, Q0, Q1, Q_COUNT, Q_FIRST, Q_SHIFT, U0, U1, U_COUNT, U_FIRST, U_SHIFT, X0, X1, Grid
 from .measure import NEAREST_RUPTURE, SAFETY, SEED, all_cells, between, exact_states, position
-from .polynomial import CONTROL_TERMS, LANES, SIZE_TERMS
+from .polynomial import CONTROL_TERMS, LANES, SIZE_TERMS, cells_from
 from .samples import pairs_of
 from .task import Task, refuse_dry
 
@@ -81,7 +81,9 @@ def fill(grid: Grid, task: Task, names: Sequence[str]) -> list[Filled]:
         each = [np.repeat(operand, q.shape[1]) for operand in (control, *radii)]
         for i, name in enumerate(names):
             polynomial = np.empty(gap.size)
-            evaluate(FORCE, grid._replace(force=coefficients[i]), (gap.ravel(), *each, np.ones(1)), polynomial)
+            evaluate(
+                FORCE, grid._replace(force=cells_from(coefficients[i])), (gap.ravel(), *each, np.ones(1)), polynomial
+            )
             found = polynomial.reshape(gap.shape) / (2.0 * math.pi)
             worst[i] = max(worst[i], _error(channels[name], found, _taken(states, s, name), s))
     filled = zip(names, SAFETY * worst, coefficients, strict=True)

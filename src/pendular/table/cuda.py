@@ -37,7 +37,7 @@ from ..ground.rows import element
 from . import kernels, warps
 from .kernels import Grid
 from .packed import Packed, pack
-from .polynomial import CELL
+from .polynomial import Cells, cell_count
 from .table import Table, operands_of
 
 __all__ = ["DeviceTable", "to_device"]
@@ -244,7 +244,7 @@ class DeviceTable:
         cells = cuda.device_array(max(size, 1), np.int64, stream=work.stream)[:size]
         if size:
             loop_of(cell_number)[blocks_for(size), THREADS, work.stream](self.grid, *flat(work), cells)
-        found = group(cells, self.grid.force.size // CELL, work.stream, in_order=False).items[:size]
+        found = group(cells, cell_count(self.grid.force), work.stream, in_order=False).items[:size]
         return on_host(found, work.stream) if work.like is None else handed_back(found, work.like, work.stream)
 
     def _ask(self, scalar: Callable[..., float], out: Any, *arguments: Operand) -> Any:
@@ -284,8 +284,12 @@ def to_device(table: Table) -> DeviceTable:
     """
     if find_spec("numba_cuda") is None and not IS_SIMULATED:
         raise ModuleNotFoundError("numba-cuda is not installed; pip install 'pendular[cuda]'")
-    arrays: dict[str, Any] = {
-        name: cuda.to_device(value) for name, value in table.grid._asdict().items() if isinstance(value, np.ndarray)
-    }
     packed = Packed(*map(cuda.to_device, pack(table.grid)))
-    return DeviceTable(table.control, table.grid._replace(**arrays), packed)
+    return DeviceTable(table.control, Grid(*map(_there, table.grid)), packed)
+
+
+def _there(value: Any) -> Any:
+    """What a kernel reads, on the device."""
+    if isinstance(value, Cells):
+        return Cells(*map(cuda.to_device, value))
+    return cuda.to_device(value) if isinstance(value, np.ndarray) else value

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from ..exact.branch import STRETCH
 from ..ground.compile import kernel
-from .polynomial import CELL, RUPTURE_CELL, in_three, in_two, rate_in_three
+from .polynomial import Cells, in_three, in_two, rate_in_three
 
 __all__ = ["Grid", "energy", "force", "liquid", "rupture_distance", "stiffness"]
 
@@ -48,8 +48,8 @@ class Grid(NamedTuple):
     lines: Floats  # (rows, 6): x₀, x₁ of the control from -1 to 1, then u₀, u₁, q₀, q₁
     cuts: Integers  # (rows, 8): how w is cut into cells, and the number of cells before those of the row
     rupture: Floats  # coefficients of D_c/R̄
-    force: Floats  # of λ/R̄
-    liquid: Floats  # of c*²V/R̄³ under suction, of √c* ΔpR̄/γ at constant volume, which vary slowly
+    force: Cells  # of λ/R̄
+    liquid: Cells  # of c*²V/R̄³ under suction, of √c* ΔpR̄/γ at constant volume, which vary slowly
     shift: int  # cut of the control
     first: int
     cells: int
@@ -209,7 +209,7 @@ def if_bridged(value: float, separation: float, rupture: float, beyond: float) -
 @kernel
 def rupture_star(grid: Grid, place: Place) -> float:
     """D_c/R̄."""
-    return in_two(grid.rupture, place.size_cell * RUPTURE_CELL, place.x, place.y)
+    return in_two(grid.rupture, place.size_cell, place.x, place.y)
 
 
 class Found(NamedTuple):
@@ -245,7 +245,7 @@ def force(
     if not gap_of(separation) < rupture:
         return 0.0 if gap_of(separation) >= rupture else math.nan
     cell, t = cell_of(grid, place, q_of(separation, rupture, bend))
-    return 2.0 * math.pi * surface_tension * pair.radius * in_three(grid.force, cell * CELL, place.x, place.y, t)
+    return 2.0 * math.pi * surface_tension * pair.radius * in_three(grid.force, cell, place.x, place.y, t)
 
 
 @kernel
@@ -266,7 +266,7 @@ def liquid(
         return math.nan
     cell, t = cell_of(grid, place, q_of(separation, rupture, bend))
     unit = liquid_unit(grid, pair.control, pair.radius, surface_tension)
-    return unit * in_three(grid.liquid, cell * CELL, place.x, place.y, t)
+    return unit * in_three(grid.liquid, cell, place.x, place.y, t)
 
 
 @kernel
@@ -290,7 +290,7 @@ def stiffness(
         return 0.0
     q = q_of(separation, rupture, bend)
     cell, t = cell_of(grid, place, q)
-    rate = rate_in_three(grid.force, cell * CELL, place.x, place.y, t) * t_rate(
+    rate = rate_in_three(grid.force, cell, place.x, place.y, t) * t_rate(
         grid, place.row, cell, q, separation, rupture, bend
     )
     return 2.0 * math.pi * surface_tension * pair.radius * rate
@@ -340,7 +340,7 @@ def _integral(grid: Grid, place: Place, bend: float, end: float) -> float:
         high = end_of_piece(grid, place.row, pieces, cell, end)
         for point in range(POINTS):
             t, weight = work_point(grid, place.row, bend, low, high, point)
-            total += weight * in_three(grid.force, cell * CELL, place.x, place.y, t)
+            total += weight * in_three(grid.force, cell, place.x, place.y, t)
         low = high
     return total
 

@@ -4,6 +4,7 @@ The compiler does not find them by itself: it may not reorder sums.
 """
 
 from collections.abc import Callable
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -14,13 +15,13 @@ from numba.extending import intrinsic, overload
 from numpy.typing import NDArray
 
 from ..ground.compile import compiled, rebound
-from .polynomial import LANES, LEAST_SIZE_TERMS, RUPTURE_SIZE_TERMS, SIZE_TERMS, in_three, in_two, rate_in_three
+from .polynomial import LANES, MOST_HIGH, RUPTURE_SIZE_TERMS, TERMS, Cells, in_three, in_two, rate_in_three
 
 Floats = NDArray[np.float64]
 
 
 def _splat(builder: Any, value: Any, count: int) -> Any:
-    kind = ir.VectorType(ir.DoubleType(), count)
+    kind = ir.VectorType(value.type, count)
     first = builder.insert_element(ir.Constant(kind, ir.Undefined), value, ir.Constant(ir.IntType(32), 0))
     return _shuffle(builder, first, [0] * count)
 
@@ -33,23 +34,39 @@ def _shuffle(builder: Any, vector: Any, lanes: list[int]) -> Any:
 def multiply_add(builder: Any, a: Any, b: Any, c: Any) -> Any:
     """Instruction a b + c, rounded once where the machine can."""
     kind = a.type
-    suffix = f"v{kind.count}f64" if isinstance(kind, ir.VectorType) else "f64"
+    is_vector = isinstance(kind, ir.VectorType)
+    number = "f32" if (kind.element if is_vector else kind) == ir.FloatType() else "f64"
+    suffix = f"v{kind.count}{number}" if is_vector else number
     function = cgutils.get_or_insert_function(  # type: ignore[no-untyped-call]
         builder.module, ir.FunctionType(kind, [kind, kind, kind]), f"llvm.fmuladd.{suffix}"
     )
     return builder.call(function, [a, b, c])
 
 
-def _lanes(builder: Any, rows: Any, x: Any, y: Any, terms: tuple[int, ...]) -> Any:
-    """Σ_i x^i Σ_j y^j c_ijk in lane k, with so many terms in y for each power of x."""
+def _rows(context: Any, builder: Any, kind: Any, array: Any, cell: Any, count: int) -> list[Any]:
+    """Coefficients of a cell as so many vectors, one lane for each power of the last variable."""
+    data = context.make_array(kind)(context, builder, array).data
+    vectors = builder.bitcast(data, ir.VectorType(data.type.pointee, LANES).as_pointer())
+    first = builder.mul(cell, ir.Constant(ir.IntType(64), count))
+    places = [builder.add(first, ir.Constant(ir.IntType(64), number)) for number in range(count)]
+    return [builder.load(builder.gep(vectors, [place]), align=kind.dtype.bitwidth // 8) for place in places]
+
+
+def _in_y(builder: Any, total: Any, rows: list[Any], y: Any) -> Any:
+    """Add Σ_j y^j c_jk in lane k, the highest power first, to what is there."""
+    for row in rows:
+        total = row if total is None else multiply_add(builder, total, y, row)
+    return total
+
+
+def _in_both(builder: Any, low: list[Any], high: list[Any], x: Any, y: Any) -> Any:
+    """Σ_i x^i Σ_j y^j c_ijk in lane k, the highest powers first; what single precision holds is summed in it."""
     xs, ys = _splat(builder, x, LANES), _splat(builder, y, LANES)
-    total, number = None, 0
-    for terms_y in terms:
-        of_y = None
-        for _ in range(terms_y):
-            row = builder.load(builder.gep(rows, [ir.Constant(ir.IntType(64), number)]), align=8)
-            of_y = row if of_y is None else multiply_add(builder, of_y, ys, row)
-            number += 1
+    single_ys = _splat(builder, builder.fptrunc(y, ir.FloatType()), LANES)
+    lows, highs, total = iter(low), iter(high), None
+    for terms in TERMS:
+        highest = _in_y(builder, None, list(islice(highs, min(terms, MOST_HIGH))), single_ys)
+        of_y = _in_y(builder, builder.fpext(highest, ys.type), list(islice(lows, max(terms - MOST_HIGH, 0))), ys)
         total = of_y if total is None else multiply_add(builder, total, xs, of_y)
     return total
 
@@ -72,64 +89,74 @@ def _rate(builder: Any, lanes: Any, t: Any) -> Any:
     return _sum(builder, builder.fmul(_shuffle(builder, lanes, [*range(1, LANES), 0]), factors), t)
 
 
-def _vectorised(terms: tuple[int, ...], ending: Callable[..., Any]) -> Any:
-    """A polynomial with fixed numbers of terms, written out: (coefficients, start, x, y, t)."""
+def _of_pair(typing_context: Any, coefficients: Any, cell: Any, x: Any, y: Any) -> Any:
+    """The polynomial of a rupture distance: (coefficients, cell, x, y)."""
+    signature = types.float64(coefficients, types.int64, types.float64, types.float64)
 
-    def polynomial(typing_context: Any, coefficients: Any, start: Any, x: Any, y: Any, t: Any) -> Any:
-        signature = types.float64(coefficients, types.int64, types.float64, types.float64, types.float64)
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        array, cell, x, y = arguments
+        rows = _rows(context, builder, signature.args[0], array, cell, RUPTURE_SIZE_TERMS)
+        return _sum(builder, _in_y(builder, None, rows, _splat(builder, y, LANES)), x)
+
+    return signature, generate
+
+
+def _of_bridge(ending: Callable[..., Any]) -> Any:
+    """The polynomial of a force: (low, high, cell, x, y, t)."""
+
+    def polynomial(typing_context: Any, low: Any, high: Any, cell: Any, x: Any, y: Any, t: Any) -> Any:
+        signature = types.float64(low, high, types.int64, types.float64, types.float64, types.float64)
 
         def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-            coefficients, start, x, y, t = arguments
-            data = context.make_array(signature.args[0])(context, builder, coefficients).data
-            kind = ir.VectorType(ir.DoubleType(), LANES)
-            rows = builder.bitcast(builder.gep(data, [start]), kind.as_pointer())
-            return ending(builder, _lanes(builder, rows, x, y, terms), t)
+            low, high, cell, x, y, t = arguments
+            kinds, most = signature.args, sum(min(terms, MOST_HIGH) for terms in TERMS)
+            low_rows = _rows(context, builder, kinds[0], low, cell, sum(TERMS) - most)
+            high_rows = _rows(context, builder, kinds[1], high, cell, most)
+            return ending(builder, _in_both(builder, low_rows, high_rows, x, y), t)
 
         return signature, generate
 
-    return intrinsic(polynomial)
+    return polynomial
 
 
-_FORCE_TERMS = tuple(range(LEAST_SIZE_TERMS, SIZE_TERMS + 1))
-_vector_in_two = _vectorised((RUPTURE_SIZE_TERMS,), _sum)
-_vector_in_three = _vectorised(_FORCE_TERMS, _sum)
-_vector_rate = _vectorised(_FORCE_TERMS, _rate)
+_vector_in_two: Any = intrinsic(_of_pair)
+_vector_in_three, _vector_rate = intrinsic(_of_bridge(_sum)), intrinsic(_of_bridge(_rate))
 
 
 @overload(in_two)
-def _in_two(coefficients: Floats, start: int, x: float, y: float) -> Callable[..., float]:
+def _in_two(coefficients: Floats, cell: int, x: float, y: float) -> Callable[..., float]:
     return rebound(in_two, compiled)
 
 
 @overload(in_two, target="cpu")
-def _in_two_on_cpu(coefficients: Floats, start: int, x: float, y: float) -> Callable[..., float]:
-    def in_two(coefficients: Floats, start: int, x: float, y: float) -> float:
-        return _vector_in_two(coefficients, start, 0.0, y, x)
+def _in_two_on_cpu(coefficients: Floats, cell: int, x: float, y: float) -> Callable[..., float]:
+    def in_two(coefficients: Floats, cell: int, x: float, y: float) -> float:
+        return _vector_in_two(coefficients, cell, x, y)
 
     return in_two
 
 
 @overload(in_three)
-def _in_three(coefficients: Floats, start: int, x: float, y: float, t: float) -> Callable[..., float]:
+def _in_three_anywhere(cells: Cells, cell: int, x: float, y: float, t: float) -> Callable[..., float]:
     return rebound(in_three, compiled)
 
 
 @overload(in_three, target="cpu")
-def _in_three_on_cpu(coefficients: Floats, start: int, x: float, y: float, t: float) -> Callable[..., float]:
-    def in_three(coefficients: Floats, start: int, x: float, y: float, t: float) -> float:
-        return _vector_in_three(coefficients, start, x, y, t)
+def _in_three_on_cpu(cells: Cells, cell: int, x: float, y: float, t: float) -> Callable[..., float]:
+    def in_three(cells: Cells, cell: int, x: float, y: float, t: float) -> float:
+        return _vector_in_three(cells.low, cells.high, cell, x, y, t)
 
     return in_three
 
 
 @overload(rate_in_three)
-def _rate_in_three(coefficients: Floats, start: int, x: float, y: float, t: float) -> Callable[..., float]:
+def _rate_in_three(cells: Cells, cell: int, x: float, y: float, t: float) -> Callable[..., float]:
     return rebound(rate_in_three, compiled)
 
 
 @overload(rate_in_three, target="cpu")
-def _rate_in_three_on_cpu(coefficients: Floats, start: int, x: float, y: float, t: float) -> Callable[..., float]:
-    def rate_in_three(coefficients: Floats, start: int, x: float, y: float, t: float) -> float:
-        return _vector_rate(coefficients, start, x, y, t)
+def _rate_in_three_on_cpu(cells: Cells, cell: int, x: float, y: float, t: float) -> Callable[..., float]:
+    def rate_in_three(cells: Cells, cell: int, x: float, y: float, t: float) -> float:
+        return _vector_rate(cells.low, cells.high, cell, x, y, t)
 
     return rate_in_three

@@ -17,14 +17,13 @@ from numpy.typing import NDArray
 from ..ground.device import cuda, types
 from .kernels import Grid
 from .lanes import multiply_add
-from .polynomial import CELL, LANES, LEAST_SIZE_TERMS, RUPTURE_CELL, RUPTURE_SIZE_TERMS, SIZE_TERMS
+from .polynomial import CELL, LANES, RUPTURE_CELL, RUPTURE_SIZE_TERMS, TERMS, coefficients_of
 
 __all__ = ["Packed", "lanes_in_three", "lanes_in_two", "pack"]
 
 Floats = NDArray[np.float64]
 
 WHOLE_WARP = 0xFFFFFFFF
-_FORCE_TERMS = tuple(range(LEAST_SIZE_TERMS, SIZE_TERMS + 1))
 _RUPTURE_TERMS = (RUPTURE_SIZE_TERMS,)
 _TWO = 2  # coefficients in a load
 _HALVINGS = LANES.bit_length() - 1
@@ -40,7 +39,8 @@ class Packed(NamedTuple):
 
 def pack(grid: Grid) -> Packed:
     """Coefficients of a table in that order."""
-    return Packed(_packed(grid.rupture, RUPTURE_CELL), _packed(grid.force, CELL), _packed(grid.liquid, CELL))
+    force, liquid = (_packed(coefficients_of(cells), CELL) for cells in (grid.force, grid.liquid))
+    return Packed(_packed(grid.rupture, RUPTURE_CELL), force, liquid)
 
 
 def _packed(coefficients: Floats, cell: int) -> Floats:
@@ -54,7 +54,7 @@ def _rows_in(packed: Floats, start: int, count: int) -> tuple[float, ...]:
 
 def force_rows(packed: Floats, start: int) -> tuple[float, ...]:
     """Coefficients of one lane of a force, which starts at a place."""
-    return _rows_in(packed, start, sum(_FORCE_TERMS))
+    return _rows_in(packed, start, sum(TERMS))
 
 
 def rupture_rows(packed: Floats, start: int) -> tuple[float, ...]:
@@ -75,7 +75,7 @@ def _lane_of(rows: tuple[float, ...], x: float, y: float, terms: tuple[int, ...]
 
 def force_lane(rows: tuple[float, ...], x: float, y: float) -> float:
     """Σ_i x^i Σ_j y^j c_ij of one lane."""
-    return _lane_of(rows, x, y, _FORCE_TERMS)
+    return _lane_of(rows, x, y, TERMS)
 
 
 def rupture_lane(rows: tuple[float, ...], y: float) -> float:
@@ -125,8 +125,8 @@ def _written_out(terms: tuple[int, ...]) -> Any:
     return intrinsic(lane)
 
 
-_force_rows, _rupture_rows = _read_by_pairs(sum(_FORCE_TERMS)), _read_by_pairs(sum(_RUPTURE_TERMS))
-_force_lane, _rupture_lane = _written_out(_FORCE_TERMS), _written_out(_RUPTURE_TERMS)
+_force_rows, _rupture_rows = _read_by_pairs(sum(TERMS)), _read_by_pairs(sum(_RUPTURE_TERMS))
+_force_lane, _rupture_lane = _written_out(TERMS), _written_out(_RUPTURE_TERMS)
 
 
 overload(force_rows)(lambda packed, start: lambda packed, start: _force_rows(packed, start))

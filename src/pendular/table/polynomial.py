@@ -2,9 +2,13 @@
 
 They are taken one after another here. On the processor eight lanes of a vector hold them, and on a GPU eight threads:
 `lanes`, `packed`. The order of the sums is the same in all, and in `codes/pendular_table.h`.
+
+Of a force the terms x^i y^j with i + j ≥ 3 are so small that single precision holds their coefficients: a cell takes 13
+lines of the cache in place of 20. The lanes of a vector sum these terms in it too, which changes a force by less than a
+thousandth of the bound of its error.
 """
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,19 +16,27 @@ from numpy.typing import NDArray
 from ..ground.compile import kernel, kernel_written_in
 
 __all__ = [
-    "CELL", "CONTROL_TERMS", "LANES", "LEAST_SIZE_TERMS", "RUPTURE_CELL", "RUPTURE_SIZE_TERMS", "SIZE_TERMS",
-    "Lanes", "aligned", "by_halves", "in_three", "in_two", "rate_by_halves", "rate_in_three",
+    "CELL", "CONTROL_TERMS", "LANES", "MOST_HIGH", "POWERS", "RUPTURE_CELL", "RUPTURE_SIZE_TERMS", "SIZE_TERMS",
+    "TERMS", "Cells", "Lanes", "aligned", "by_halves", "cell_count", "cells_from", "coefficients_of", "in_three",
+    "in_two", "rate_by_halves", "rate_in_three", "to_single",
 ]  # fmt: skip
 
 Floats = NDArray[np.float64]
+Singles = NDArray[np.float32]
 Lanes = tuple[float, float, float, float, float, float, float, float]  # one for each power of the last variable
 
 LANES = 8  # powers of the last variable: q for a force, the control for a rupture distance
 CONTROL_TERMS, SIZE_TERMS = 5, 6  # powers of the control and of the size variable in a force: x^i y^j with i + j < 6
-LEAST_SIZE_TERMS = SIZE_TERMS - CONTROL_TERMS + 1  # at the highest power of the control
 RUPTURE_SIZE_TERMS = 8  # powers of the size variable in a rupture distance
-CELL = sum(range(LEAST_SIZE_TERMS, SIZE_TERMS + 1)) * LANES  # coefficients of a force, or of what goes with it
+POWERS = tuple((i, j) for i in range(CONTROL_TERMS) for j in range(SIZE_TERMS) if i + j < SIZE_TERMS)[::-1]
+CELL = len(POWERS) * LANES  # coefficients of a force, or of what goes with it
 RUPTURE_CELL = RUPTURE_SIZE_TERMS * LANES
+
+TERMS = tuple(range(SIZE_TERMS - CONTROL_TERMS + 1, SIZE_TERMS + 1))  # of each power of x, the highest first
+MOST_HIGH = 3  # of those terms, the first: i + j ≥ 3, which single precision holds
+_ARE_HIGH = np.array([place < MOST_HIGH for terms in TERMS for place in range(terms)])
+_HIGH_CELL = int(_ARE_HIGH.sum()) * LANES
+_LOW_CELL = CELL - _HIGH_CELL
 
 _CACHE_LINE = 64  # [bytes]: eight coefficients
 
@@ -38,16 +50,51 @@ def aligned(array: NDArray[Any]) -> NDArray[Any]:
     return copy
 
 
+class Cells(NamedTuple):
+    """Coefficients of a force, or of what goes with it: those of a cell lie together, in the order of the powers."""
+
+    low: Floats
+    high: Singles
+
+
+def to_single(rows: Floats) -> Floats:
+    """Round the coefficients that single precision holds, of (cells, powers, lanes)."""
+    return np.where(_ARE_HIGH[:, None], rows.astype(np.float32), rows)
+
+
+def cells_from(coefficients: Floats) -> Cells:
+    """Cells from all coefficients, cell by cell."""
+    rows = coefficients.reshape(-1, len(POWERS), LANES)
+    low, high = rows[:, ~_ARE_HIGH], rows[:, _ARE_HIGH].astype(np.float32)
+    return Cells(aligned(low.reshape(-1)), aligned(high.reshape(-1)))
+
+
+def coefficients_of(cells: Cells) -> Floats:
+    """All coefficients, cell by cell."""
+    rows = np.empty((cell_count(cells), len(POWERS), LANES))
+    rows[:, ~_ARE_HIGH] = cells.low.reshape(len(rows), -1, LANES)
+    rows[:, _ARE_HIGH] = cells.high.reshape(len(rows), -1, LANES)
+    return rows.reshape(-1)
+
+
+def cell_count(cells: Cells) -> int:
+    """Number of cells."""
+    return int(cells.low.size) // _LOW_CELL
+
+
 @kernel
-def _lane(coefficients: Floats, start: int, x: float, y: float) -> float:
+def _lane(cells: Cells, cell: int, lane: int, x: float, y: float) -> float:
     """Σ_i x^i Σ_j y^j c_ij with i + j < 6, the highest powers first."""
-    total = 0.0
-    row = 0
+    total, low, high = 0.0, cell * _LOW_CELL + lane, cell * _HIGH_CELL + lane
     for i in range(CONTROL_TERMS):
         of_y = 0.0
-        for _ in range(LEAST_SIZE_TERMS + i):
-            of_y = of_y * y + coefficients[start + row * LANES]
-            row += 1
+        for place in range(SIZE_TERMS - CONTROL_TERMS + 1 + i):
+            if place < MOST_HIGH:
+                of_y = of_y * y + np.float64(cells.high[high])
+                high += LANES
+            else:
+                of_y = of_y * y + cells.low[low]
+                low += LANES
         total = total * x + of_y
     return total
 
@@ -92,28 +139,27 @@ def _pair_lanes(coefficients: Floats, start: int, y: float) -> Lanes:
 
 
 @kernel
-def _lanes(coefficients: Floats, start: int, x: float, y: float) -> Lanes:
+def _lanes(cells: Cells, cell: int, x: float, y: float) -> Lanes:
     return (
-        _lane(coefficients, start, x, y), _lane(coefficients, start + 1, x, y),
-        _lane(coefficients, start + 2, x, y), _lane(coefficients, start + 3, x, y),
-        _lane(coefficients, start + 4, x, y), _lane(coefficients, start + 5, x, y),
-        _lane(coefficients, start + 6, x, y), _lane(coefficients, start + 7, x, y),
+        _lane(cells, cell, 0, x, y), _lane(cells, cell, 1, x, y), _lane(cells, cell, 2, x, y),
+        _lane(cells, cell, 3, x, y), _lane(cells, cell, 4, x, y), _lane(cells, cell, 5, x, y),
+        _lane(cells, cell, 6, x, y), _lane(cells, cell, 7, x, y),
     )  # fmt: skip
 
 
 @kernel_written_in("pendular.table.lanes")
-def in_two(coefficients: Floats, start: int, x: float, y: float) -> float:
+def in_two(coefficients: Floats, cell: int, x: float, y: float) -> float:
     """Σ_k x^k Σ_j y^j c_jk, the highest power of y first, and the powers of x by halves."""
-    return by_halves(_pair_lanes(coefficients, start, y), x)
+    return by_halves(_pair_lanes(coefficients, cell * RUPTURE_CELL, y), x)
 
 
 @kernel_written_in("pendular.table.lanes")
-def in_three(coefficients: Floats, start: int, x: float, y: float, t: float) -> float:
+def in_three(cells: Cells, cell: int, x: float, y: float, t: float) -> float:
     """Σ_k t^k Σ_i x^i Σ_j y^j c_ijk with i + j < 6, the highest powers of x and y first, and those of t by halves."""
-    return by_halves(_lanes(coefficients, start, x, y), t)
+    return by_halves(_lanes(cells, cell, x, y), t)
 
 
 @kernel_written_in("pendular.table.lanes")
-def rate_in_three(coefficients: Floats, start: int, x: float, y: float, t: float) -> float:
+def rate_in_three(cells: Cells, cell: int, x: float, y: float, t: float) -> float:
     """Rate of `in_three` in t, by halves."""
-    return rate_by_halves(_lanes(coefficients, start, x, y), t)
+    return rate_by_halves(_lanes(cells, cell, x, y), t)

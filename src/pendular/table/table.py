@@ -21,7 +21,7 @@ from .cuts import octave_of
 from .holding import refuse_without_contact
 from .kernels import Grid
 from .measure import Bound, measure
-from .polynomial import aligned
+from .polynomial import aligned, cells_from, coefficients_of
 from .task import Task
 
 __all__ = ["Table", "ToleranceWarning", "load_table", "tabulate"]
@@ -33,7 +33,7 @@ _RANGES = {"suction": (1e-2, 1e8), "volume": (1e-9, 1.0)}
 _SHARE, _LEAST_STEP, _MOST_BUILDS = 0.3, 0.4, 7
 _HOPELESS, _AIM = 30.0, 0.7  # an error over the tolerance that finer cells do not mend; what they aim at
 _TOLERANCE = 1e-8
-_ARRAYS = ("lines", "cuts", "rupture", "force", "liquid")
+_ARRAYS = ("lines", "cuts", "rupture")
 _UNITS = {"suction": "Pa", "volume": "m**3"}
 
 
@@ -242,7 +242,8 @@ class Table:
             "range": [self.grid.low, self.grid.high, self.grid.least_ratio, self.grid.largest_ratio],
         }
         place = as_path("path", path)
-        arrays = {name: getattr(self.grid, name) for name in _ARRAYS}
+        own = {name: getattr(self.grid, name) for name in _ARRAYS}
+        arrays = own | {name: coefficients_of(getattr(self.grid, name)) for name in ("force", "liquid")}
         for channel in channels:
             one_of("channels", channel, tuple(known(self.grid.sides)))
         if len(set(channels)) < len(channels):
@@ -437,6 +438,8 @@ def load_table(path: str | PathLike[str]) -> Table:
     force, rupture, liquid, bridges = found["bound"]
     grid = Grid(
         **{name: aligned(arrays[name]) for name in _ARRAYS},
+        force=cells_from(arrays["force"]),
+        liquid=cells_from(arrays["liquid"]),
         shift=shift,
         first=first,
         cells=cells,
