@@ -50,7 +50,7 @@ class Made(NamedTuple):
 
 
 def integrate(radius, place, slope, suction, length):
-    """Meridian from a point over an arc length, densely: Y, z, ψ and ∫πY² dz."""
+    """Meridian from a point over an arc length, or one whole turn, densely: Y, z, ψ and ∫πY² dz."""
 
     def rates(_, state):
         cosine = math.cos(state[2])
@@ -59,7 +59,10 @@ def integrate(radius, place, slope, suction, length):
     def closes_up(_, state):
         return state[0] - _THINNEST * radius
 
-    closes_up.terminal = True
+    def has_turned(_, state):  # no bridge does: it would run through itself
+        return abs(state[2] - slope) - 2.0 * math.pi
+
+    closes_up.terminal = has_turned.terminal = True
     return solve_ivp(
         rates,
         (0.0, length),
@@ -68,7 +71,7 @@ def integrate(radius, place, slope, suction, length):
         rtol=1e-12,
         atol=1e-14,
         dense_output=True,
-        events=closes_up,
+        events=(closes_up, has_turned),
     )
 
 
