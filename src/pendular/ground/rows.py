@@ -19,7 +19,7 @@ from .calling import Native
 from .compile import Kernel, has_compiler, kernel
 from .threads import helpers, thread_count
 
-__all__ = ["ENTRIES", "Own", "by_machine_code", "element", "entry", "over_rows"]
+__all__ = ["ENTRIES", "Own", "by_machine_code", "copy_part", "element", "entry", "over_rows"]
 
 _LOADING = 0.15  # of machine code, [s]
 _PATIENCE = 3.0  # on plain answers before an entry is compiled that tells no other, [s]
@@ -37,6 +37,19 @@ _always: list[Told] = []  # one for each time that machine code was asked for, w
 def element(operand: NDArray[np.float64], i: int) -> float:
     """Element i of an operand that is as long as the result or has one element for all."""
     return float(operand[min(i, operand.size - 1)])
+
+
+@kernel
+def copy_part(source: NDArray[Any], begin: int, target: NDArray[Any], place: int, count: int) -> None:
+    """Copy elements, or the one that counts for all; an assignment to a slice would take memory of its own."""
+    written = target[place : place + count]
+    if source.size == 1:
+        for i in range(count):
+            written[i] = source[0]
+    else:
+        read = source[begin : begin + count]
+        for i in range(count):
+            written[i] = read[i]
 
 
 class Own(NamedTuple):

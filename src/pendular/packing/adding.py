@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..ground.compile import kernel
-from ..ground.rows import Own, entry, over_rows
+from ..ground.rows import Own, copy_part, entry, over_rows
 from ..ground.threads import thread_count
 from .contacts import arm_of, place_of
 from .finding import CHUNK, WINDOW, Found
@@ -100,20 +100,12 @@ def _add(found: Found, force: Floats, pulls: _Pulls, begin: int, count: int, sta
 
 
 @kernel
-def _copy(source: NDArray[np.generic], begin: int, target: NDArray[np.generic], place: int, count: int) -> None:
-    """Copy numbers; an assignment to a slice would take memory of its own."""
-    read, written = source[begin : begin + count], target[place : place + count]
-    for i in range(count):
-        written[i] = read[i]
-
-
-@kernel
 def _put(found: Found, bridges: Bridges, begin: int, place: int, count: int) -> None:
     """Put bridges in their places."""
-    _copy(found.pairs, 2 * begin, bridges.pairs, 2 * place, 2 * count)
-    _copy(found.control, begin, bridges.control, place, count)
-    _copy(found.separation, begin, bridges.separation, place, count)
-    _copy(found.attraction, begin, bridges.attraction, place, count)
+    copy_part(found.pairs, 2 * begin, bridges.pairs, 2 * place, 2 * count)
+    copy_part(found.control, begin, bridges.control, place, count)
+    copy_part(found.separation, begin, bridges.separation, place, count)
+    copy_part(found.attraction, begin, bridges.attraction, place, count)
 
 
 @kernel

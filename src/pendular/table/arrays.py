@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..ground.compile import kernel
-from ..ground.rows import Own, element, entry, over_rows
+from ..ground.rows import Own, copy_part, element, entry, over_rows
 from . import kernels
 from .kernels import Grid, Place, bend_of, cell_of, if_bridged, liquid_unit, place_of, q_of, reduce_pair
 from .polynomial import in_three, in_two
@@ -66,17 +66,6 @@ def answer_block(asked: int, grid: Grid, numbers: Floats, cells: Integers, count
         star[i] = if_bridged(value, separation[i], rupture[i], beyond)
 
 
-@kernel
-def _copy(part: Floats, row: Floats, count: int) -> None:
-    """Copy elements, or one of them to all places, by vector instructions."""
-    if part.size == 1:
-        for i in range(count):
-            row[i] = part[0]
-    else:
-        for i in range(count):
-            row[i] = part[i]
-
-
 @entry(plain_cost=1e-4, patience=1.0)
 def block_range(
     asked: int, grid: Grid, x: Operands, out: Floats, numbers: Floats, cells: Integers, start: int, stop: int
@@ -85,9 +74,9 @@ def block_range(
     for begin in range(start, stop, BLOCK):
         count = min(BLOCK, stop - begin)
         for j, operand in enumerate(x):
-            _copy(operand[begin:] if operand.size > 1 else operand, numbers[j], count)
+            copy_part(operand, begin, numbers[j], 0, count)
         answer_block(asked, grid, numbers, cells, count)
-        _copy(numbers[-1], out[begin : begin + count], count)
+        copy_part(numbers[-1], 0, out, begin, count)
 
 
 @entry(plain_cost=1e-4, patience=1.0)
