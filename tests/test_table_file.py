@@ -217,6 +217,7 @@ ARCHIVE_FAULTS = {
     "short": (lambda d, a: a.update(force=a["force"][:-160]), "has arrays that are not laid out as it says"),
     "both": (lambda d, a: a.update(force=a["force"][160:], liquid=a["liquid"][160:]), "has cells that do not cover"),
     "infinite": (lambda d, a: a["force"].__setitem__(5, math.inf), "has a number that is not finite"),
+    "large": (lambda d, a: a["force"].__setitem__(5, 1e39), r"has a coefficient of 1e\+39, too large for any bridge"),
 }
 
 

@@ -17,6 +17,7 @@ Integers = NDArray[np.int64]
 
 LINE, CUT = 6, 8  # numbers of a row
 MOST_ROWS = 1 << 24
+_MOST_NUMBER = 1e38  # which single precision holds
 _LEAST_SHIFT, _MOST_SHIFT, _EXPONENTS = 33, 52, 2047
 _RATIO_LIMIT, _ANGLE_LIMIT = 1.001, 3.1415926535898  # a little above 1 and π
 _CUTS = "has cells that do not cover its range one after another"
@@ -64,6 +65,8 @@ def refuse_unsound(description: Mapping[str, Any], arrays: Mapping[str, NDArray[
     )
     require(are_laid_out, "has arrays that are not laid out as it says")
     require(all(np.isfinite(array).all() for array in (lines, *coefficients)), "has a number that is not finite")
+    most = max(np.abs(array).max(initial=0.0) for array in coefficients)
+    require(most < _MOST_NUMBER, f"has a coefficient of {most:g}, too large for any bridge")
     _refuse_wrong_cuts(description, lines, cuts, (cells[0], cells[1]))
 
 
