@@ -182,6 +182,14 @@ def test_made_bridges_are_found(angles, seed):
     assert counts["same"] > 50
 
 
+@pytest.mark.parametrize(("degrees", "volume"), [(148.024046, 2.55063639e-6), (115.704841, 6.73299715e-7)])
+def test_every_point_of_a_curve_of_a_squeezed_drop_closes(degrees, volume):
+    """Its meridian winds on: integrated far beyond the second solid, it passes close by with other numbers."""
+    angle = math.radians(degrees)
+    made = SimpleNamespace(second_radius=1.0, angles=(angle, angle), volume=volume)
+    assert not list(faults_of_curve(asked_of(made, "volume")))
+
+
 @pytest.mark.long
 @NOT_DECIDED
 @pytest.mark.parametrize(("angles", "seed"), [("acute", 43), ("any", 44)])
