@@ -9,7 +9,7 @@ import pytest
 
 import pendular as pl
 from pendular.table import arrays, kernels
-from pendular.table.measure import Bound
+from pendular.table.measure import Bound, Measured
 
 GAMMA = 0.0728
 SEED = 20261122
@@ -353,11 +353,11 @@ def test_damaged_file_is_refused(volume_table, tmp_path):
 
 
 def test_a_bound_that_is_not_reached_is_said(monkeypatch):
-    reached = Bound(force=3e-6, rupture=1e-9, liquid=1e-5, bridges=1)
-    monkeypatch.setattr("pendular.table.table.measure", lambda grid, task, parts: (reached, np.zeros(1 + parts.max())))
+    reached = Measured(np.array([[3e-6, 1e-9, 1e-5]]), np.array([1]))
+    monkeypatch.setattr("pendular.table.table.measure", lambda grid, task, parts, searched=None: reached)
     with pytest.warns(pl.ToleranceWarning, match="error of the force is 3.0e-06, not below 1.0e-06"):
         table = pl.tabulate(0.3, reduced=(20.0, 30.0), radius_ratio=(1, 2), tolerance=1e-6)
-    assert table.bound == reached
+    assert table.bound == Bound(force=3e-6, rupture=1e-9, liquid=1e-5, bridges=1)
 
 
 @pytest.mark.parametrize(

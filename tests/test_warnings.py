@@ -8,7 +8,7 @@ import pytest
 
 import pendular as pl
 from pendular.ask import problem
-from pendular.table.measure import Bound
+from pendular.table.measure import Measured
 
 GRAINS = pl.Pair(50e-6, 0.3)
 WATER = pl.Liquid.water()
@@ -76,7 +76,9 @@ def test_points_at_the_line_that_asked(case, monkeypatch):
     monkeypatch.setattr(problem, "FAILED", problem.FOUND)  # each bridge that is found counts as a failure
     monkeypatch.setattr(
         "pendular.table.table.measure",
-        lambda grid, task, parts: (Bound(3e-6, 1e-9, 1e-5, 1), np.full(parts.max() + 1, 3e-6)),
+        lambda grid, task, parts, searched=None: Measured(
+            np.tile([3e-6, 1e-9, 1e-5], (parts.max() + 1, 1)), np.ones(parts.max() + 1, np.int64)
+        ),
     )
     ask, category = CALLS[case]
     with warnings.catch_warnings(record=True) as caught:

@@ -12,8 +12,8 @@ from .arrays import FORCE, evaluate
 from .binary import Channel
 from .build import cells_of
 from .cuts import chebyshev, controls_at
-from .kernels import CELLS, Q0, Q1, Q_COUNT, Q_FIRST, Q_SHIFT, U0, U1, U_COUNT, U_FIRST, U_SHIFT, X0, X1, Grid
-from .measure import NEAREST_RUPTURE, SAFETY, SEED, all_cells, between, exact_states, position
+from .kernels import Q0, Q1, Q_COUNT, Q_FIRST, Q_SHIFT, U0, U1, U_COUNT, U_FIRST, U_SHIFT, X0, X1, Grid
+from .measure import NEAREST_RUPTURE, SAFETY, SEED, all_cells, between, exact_states, own_rows, position
 from .polynomial import CONTROL_TERMS, LANES, SIZE_TERMS, cells_from
 from .samples import pairs_of
 from .task import Task, refuse_dry
@@ -68,9 +68,10 @@ def fill(grid: Grid, task: Task, names: Sequence[str]) -> list[Filled]:
         return []
     if task.is_dry:
         refuse_dry(task.angles)
-    coefficients = np.concatenate([cells_of(_values(grid, task, row, names), task.tolerance) for row in _rows(grid)], 1)
+    rows = own_rows(grid)
+    coefficients = np.concatenate([cells_of(_values(grid, task, row, names), task.tolerance) for row in rows], 1)
     channels, worst = known(grid.sides), np.zeros(len(names))
-    for places in all_cells(grid, np.random.default_rng(SEED)):
+    for places in all_cells(grid, rows, np.random.default_rng(SEED)):
         control, size, q = position(grid, task, places)
         s = task.s_of(size)
         pairs = pairs_of(task, control, size, places.cell[:, 0] // grid.cells)
@@ -99,11 +100,6 @@ def _error(channel: Channel, found: Floats, exact: Floats, s: Floats) -> float:
         is_unequal = s > 0.0
         return float((0.5 * s[is_unequal, None] * errors[is_unequal]).max(initial=0.0))
     return float((errors / exact[:, -1:]).max())
-
-
-def _rows(grid: Grid) -> Integers:
-    """Of the rows that share their cells, one; in the order of the cells."""
-    return np.unique(grid.cuts[:, CELLS], return_index=True)[1]
 
 
 def _values(grid: Grid, task: Task, row: int, names: Sequence[str]) -> Floats:

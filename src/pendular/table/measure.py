@@ -21,12 +21,12 @@ from ..exact.state import State
 from .arrays import FORCE, LIQUID, RUPTURE, evaluate
 from .cuts import controls_at
 from .kernels import (
+    CELLS,
     Q0,
     Q1,
     Q_COUNT,
     Q_FIRST,
     Q_SHIFT,
-    SIZE_CELLS,
     U0,
     U1,
     U_COUNT,
@@ -85,28 +85,46 @@ class Errors(NamedTuple):
     liquid: Floats
 
 
-def measure(grid: Grid, task: Task, parts: Integers) -> tuple[Bound, Floats]:
-    """Search a table for its largest errors; and for the largest of the force in each part, whose number rows have."""
-    random = np.random.default_rng(SEED)
-    worst, count, of_force = np.zeros(3), 0, np.zeros(1 + int(parts.max()))
-    starts: list[list[tuple[Floats, Places]]] = [[], [], []]
-    for places in all_cells(grid, random):
-        errors = _errors(grid, task, places)
-        count += errors.force.size
-        np.maximum.at(of_force, parts[places.cell[:, 0]], errors.force.max(axis=1))
-        for kind, each in enumerate((errors.force, errors.rupture[:, None], errors.liquid)):
-            worst[kind] = max(worst[kind], each.max())
+class Measured(NamedTuple):
+    """What a search of each part of a table found."""
+
+    errors: Floats  # (parts, 3): largest of force, rupture distance and liquid, times ``SAFETY``
+    bridges: Integers  # that were compared
+
+    @property
+    def bound(self) -> Bound:
+        """Of all parts."""
+        force, rupture, liquid = self.errors.max(axis=0).tolist()
+        return Bound(force, rupture, liquid, int(self.bridges.sum()))
+
+    def but_for(self, other: "Measured", parts: Integers) -> "Measured":
+        """It with some parts as another search found them."""
+        errors, bridges = self.errors.copy(), self.bridges.copy()
+        errors[parts], bridges[parts] = other.errors[parts], other.bridges[parts]
+        return Measured(errors, bridges)
+
+
+def measure(grid: Grid, task: Task, parts: Integers, searched: Integers | None = None) -> Measured:
+    """Search the parts of a table, or some of them, for their largest errors; each row has the number of its part."""
+    random, rows = np.random.default_rng(SEED), own_rows(grid)
+    if searched is not None:
+        rows = rows[np.isin(parts[rows], searched)]
+    errors, bridges = np.zeros((1 + int(parts.max()), len(Bound._fields) - 1)), np.zeros(1 + int(parts.max()), np.int64)
+    starts: list[list[tuple[Floats, Places]]] = [[] for _ in errors.T]
+    for places in all_cells(grid, rows, random):
+        found, part = _errors(grid, task, places), parts[places.cell[:, 0]]
+        np.add.at(bridges, part, found.force.shape[1])
+        for kind, each in enumerate((found.force, found.rupture[:, None], found.liquid)):
+            np.maximum.at(errors[:, kind], part, each.max(axis=1))
             starts[kind].append(_worst_of(each, places))
-    for kind, found in enumerate(starts):
-        error, places = np.concatenate([each for each, _ in found]), _joined([each for _, each in found])
+    for kind, some in enumerate(starts):
+        error, places = np.concatenate([each for each, _ in some]), _joined([each for _, each in some])
         chosen = np.argsort(-error)[:_WORST]
-        reached, compared = _climb(grid, task, kind, error[chosen], places.taken(chosen), random)
-        worst[kind] = max(worst[kind], reached.max())
-        count += compared
-        if kind == 0:
-            np.maximum.at(of_force, parts[places.cell[chosen, 0]], reached)
-    force, rupture, liquid = (SAFETY * worst).tolist()
-    return Bound(force, rupture, liquid, count), SAFETY * of_force
+        reached = _climb(grid, task, kind, error[chosen], places.taken(chosen), random)
+        part = parts[places.cell[chosen, 0]]
+        np.maximum.at(errors[:, kind], part, reached)
+        np.add.at(bridges, part, _STEPS * len(_WIDTHS))
+    return Measured(SAFETY * errors, bridges)
 
 
 def _joined(parts: list[Places]) -> Places:
@@ -120,9 +138,13 @@ def _coordinates(random: np.random.Generator, shape: tuple[int, ...]) -> Floats:
     return np.where(random.uniform(size=shape) < _AT_ENDS, np.sign(inside), inside)
 
 
-def all_cells(grid: Grid, random: np.random.Generator) -> Iterator[Places]:
+def own_rows(grid: Grid) -> Integers:
+    """Of the rows that share their cells, one; in the order of the cells."""
+    return np.unique(grid.cuts[:, CELLS], return_index=True)[1]
+
+
+def all_cells(grid: Grid, rows: Integers, random: np.random.Generator) -> Iterator[Places]:
     """Curves at the corners and in all cells of control and size, with places in all cells of q in turn; in parts."""
-    rows = np.unique(grid.cuts[:, SIZE_CELLS], return_index=True)[1]  # of those that share their cells, one
     sizes = grid.cuts[rows, U_COUNT]
     each = max(_CURVES, -(-_LEAST_CURVES // int(sizes.sum())))
     cell = np.column_stack(
@@ -149,25 +171,21 @@ def _worst_of(errors: Floats, places: Places) -> tuple[Floats, Places]:
     return largest[chosen], kept
 
 
-def _climb(
-    grid: Grid, task: Task, kind: int, error: Floats, places: Places, random: np.random.Generator
-) -> tuple[Floats, int]:
-    """Go from each place to a worse one in its cell, by random steps; return the errors there, and how many tried."""
-    count = 0
+def _climb(grid: Grid, task: Task, kind: int, error: Floats, places: Places, random: np.random.Generator) -> Floats:
+    """Go from each place to a worse one in its cell, by random steps; return the errors there."""
     for width in _WIDTHS:
         tried = places.taken(np.repeat(np.arange(error.size), _STEPS))
         pair, t = (np.clip(at + random.normal(0.0, width, at.shape), -1.0, 1.0) for at in (tried.pair, tried.t))
         tried = tried._replace(pair=pair, t=t)
         found = _errors(grid, task, tried._replace(q_cell=tried.q_cell[:, None], t=t[:, None]))
         errors = (found.force[:, 0], found.rupture, found.liquid[:, 0])[kind].reshape(-1, _STEPS)
-        count += errors.size
         best = np.arange(len(errors)) * _STEPS + errors.argmax(axis=1)
         is_worse = errors.max(axis=1) > error
         error = np.maximum(error, errors.max(axis=1))
         places = places._replace(
             pair=np.where(is_worse[:, None], pair[best], places.pair), t=np.where(is_worse, t[best], places.t)
         )
-    return error, count
+    return error
 
 
 def between(cell: Integers, place: Floats, shift: Integers, first: Integers) -> Floats:

@@ -374,7 +374,7 @@ def tabulate(
 
 
 def _build(task: Task) -> tuple[Grid, Bound]:
-    """Build a table, with more cells as long as its error is too large; keep the best."""
+    """Build a table, with more cells in octaves of the control as long as their error is too large; keep the best."""
     if task.is_dry:
         return empty_grid(task), Bound(0.0, 0.0, 0.0, 0)
     if task.is_volume:
@@ -386,20 +386,23 @@ def _build(task: Task) -> tuple[Grid, Bound]:
     for i, sample in enumerate(samples):
         octaves.append(build_octave(task, sample, first + i, octaves[-1] if octaves else None))
     grid = join(task, octaves)
-    bound, errors = measure(grid, task, octaves_of_rows(grid, len(octaves)))
+    found = measure(grid, task, octaves_of_rows(grid, len(octaves)))
     for _ in range(1, _MOST_BUILDS):
-        is_left = errors > task.tolerance
-        if not is_left.any() or errors.max() > _HOPELESS * task.tolerance:
+        errors = found.errors[:, 0]  # of the force
+        left = np.flatnonzero(errors > task.tolerance)
+        if not left.size or errors.max() > _HOPELESS * task.tolerance:
             break
-        for i in np.flatnonzero(is_left).tolist():
+        finer = octaves.copy()
+        for i in left.tolist():
             shares[i] *= max(_LEAST_STEP, _AIM * task.tolerance / errors[i])
-            finer = task._replace(share=float(shares[i]))
-            octaves[i] = build_octave(finer, samples[i], first + i, octaves[i])
-        finer_grid = join(task, octaves)
-        reached, errors = measure(finer_grid, task, octaves_of_rows(finer_grid, len(octaves)))
-        if reached.force < bound.force:
-            grid, bound = finer_grid, reached
-    return grid, bound
+            finer[i] = build_octave(task._replace(share=float(shares[i])), samples[i], first + i, octaves[i])
+        grid = join(task, finer)
+        reached = measure(grid, task, octaves_of_rows(grid, len(octaves)), left)
+        better = left[reached.errors[left, 0] < errors[left]]
+        for i in better.tolist():
+            octaves[i] = finer[i]
+        found = found.but_for(reached, better)
+    return join(task, octaves), found.bound
 
 
 def _range(name: str, pair: tuple[float, float], low: float, high: float, brackets: str = "()") -> tuple[float, float]:
