@@ -46,7 +46,7 @@ def test_bridges_of_mercury_form_in_touch_and_break_at_rupture(programs, other):
     )
     expected = -np.asarray(table.force(gaps, SUCTION, radius, other, TENSION))
     expected[[0, -1]] = 0.0  # before it forms, and after it broke
-    np.testing.assert_allclose(forces, expected, rtol=1e-12)
+    np.testing.assert_allclose(forces, expected, rtol=1e-9)
     assert reach >= end
 
 
