@@ -32,7 +32,7 @@ from .polynomial import (
     SIZE_TERMS,
     aligned,
     cells_from,
-    to_single,
+    coefficients_of,
 )
 from .samples import Sample, curves_of, sample_octave
 from .task import Task
@@ -203,7 +203,8 @@ def cells_of(values: Floats, tolerance: float) -> Floats:
     cells = coefficients[:, :, :, :, *np.transpose(POWERS)].reshape(len(values), -1, len(POWERS), LANES)
     largest = np.abs(values).max(axis=(2, 3, 4, 5, 6))  # of a control cell: at contact
     precision = np.repeat(_ROUNDING * tolerance * largest, cells.shape[1] // largest.shape[1], axis=1)
-    return np.stack([to_single(_rounded(cells[i], precision[i])).ravel() for i in range(len(values))])
+    held = [cells_from(_rounded(*each)) for each in zip(cells, precision, strict=True)]
+    return np.stack([coefficients_of(each) for each in held])
 
 
 def octaves_of_rows(grid: Grid, count: int) -> NDArray[np.int64]:

@@ -3,7 +3,7 @@
 The compiler does not find them by itself: it may not reorder sums.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from itertools import islice
 from typing import Any
 
@@ -15,7 +15,18 @@ from numba.extending import intrinsic, overload
 from numpy.typing import NDArray
 
 from ..ground.compile import compiled, rebound
-from .polynomial import LANES, MOST_HIGH, RUPTURE_SIZE_TERMS, TERMS, Cells, in_three, in_two, rate_in_three
+from .polynomial import (
+    HIGH_CELL,
+    LANES,
+    LOW_CELL,
+    MOST_HIGH,
+    RUPTURE_SIZE_TERMS,
+    TERMS,
+    Cells,
+    in_three,
+    in_two,
+    rate_in_three,
+)
 
 Floats = NDArray[np.float64]
 
@@ -52,7 +63,7 @@ def _rows(context: Any, builder: Any, kind: Any, array: Any, cell: Any, count: i
     return [builder.load(builder.gep(vectors, [place]), align=kind.dtype.bitwidth // 8) for place in places]
 
 
-def _in_y(builder: Any, total: Any, rows: list[Any], y: Any) -> Any:
+def _in_y(builder: Any, total: Any, rows: Iterable[Any], y: Any) -> Any:
     """Add Σ_j y^j c_jk in lane k, the highest power first, to what is there."""
     for row in rows:
         total = row if total is None else multiply_add(builder, total, y, row)
@@ -65,8 +76,8 @@ def _in_both(builder: Any, low: list[Any], high: list[Any], x: Any, y: Any) -> A
     single_ys = _splat(builder, builder.fptrunc(y, ir.FloatType()), LANES)
     lows, highs, total = iter(low), iter(high), None
     for terms in TERMS:
-        highest = _in_y(builder, None, list(islice(highs, min(terms, MOST_HIGH))), single_ys)
-        of_y = _in_y(builder, builder.fpext(highest, ys.type), list(islice(lows, max(terms - MOST_HIGH, 0))), ys)
+        highest = _in_y(builder, None, islice(highs, min(terms, MOST_HIGH)), single_ys)
+        of_y = _in_y(builder, builder.fpext(highest, ys.type), islice(lows, max(terms - MOST_HIGH, 0)), ys)
         total = of_y if total is None else multiply_add(builder, total, xs, of_y)
     return total
 
@@ -109,9 +120,8 @@ def _of_bridge(ending: Callable[..., Any]) -> Any:
 
         def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
             low, high, cell, x, y, t = arguments
-            kinds, most = signature.args, sum(min(terms, MOST_HIGH) for terms in TERMS)
-            low_rows = _rows(context, builder, kinds[0], low, cell, sum(TERMS) - most)
-            high_rows = _rows(context, builder, kinds[1], high, cell, most)
+            low_rows = _rows(context, builder, signature.args[0], low, cell, LOW_CELL // LANES)
+            high_rows = _rows(context, builder, signature.args[1], high, cell, HIGH_CELL // LANES)
             return ending(builder, _in_both(builder, low_rows, high_rows, x, y), t)
 
         return signature, generate

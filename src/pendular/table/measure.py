@@ -109,7 +109,8 @@ def measure(grid: Grid, task: Task, parts: Integers, searched: Integers | None =
     random, rows = np.random.default_rng(SEED), own_rows(grid)
     if searched is not None:
         rows = rows[np.isin(parts[rows], searched)]
-    errors, bridges = np.zeros((1 + int(parts.max()), len(Bound._fields) - 1)), np.zeros(1 + int(parts.max()), np.int64)
+    count = 1 + int(parts.max())
+    errors, bridges = np.zeros((count, len(Bound._fields) - 1)), np.zeros(count, np.int64)
     starts: list[list[tuple[Floats, Places]]] = [[] for _ in errors.T]
     for places in all_cells(grid, rows, random):
         found, part = _errors(grid, task, places), parts[places.cell[:, 0]]

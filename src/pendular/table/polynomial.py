@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from ..ground.compile import kernel, kernel_written_in
 
 __all__ = [
-    "CELL", "CONTROL_TERMS", "LANES", "MOST_HIGH", "POWERS", "RUPTURE_CELL", "RUPTURE_SIZE_TERMS", "SIZE_TERMS",
-    "TERMS", "Cells", "Lanes", "aligned", "by_halves", "cell_count", "cells_from", "coefficients_of", "in_three",
-    "in_two", "rate_by_halves", "rate_in_three", "to_single",
+    "CELL", "CONTROL_TERMS", "HIGH_CELL", "LANES", "LOW_CELL", "MOST_HIGH", "POWERS", "RUPTURE_CELL",
+    "RUPTURE_SIZE_TERMS", "SIZE_TERMS", "TERMS", "Cells", "Lanes", "aligned", "by_halves", "cell_count", "cells_from",
+    "coefficients_of", "in_three", "in_two", "rate_by_halves", "rate_in_three",
 ]  # fmt: skip
 
 Floats = NDArray[np.float64]
@@ -27,16 +27,17 @@ Lanes = tuple[float, float, float, float, float, float, float, float]  # one for
 
 LANES = 8  # powers of the last variable: q for a force, the control for a rupture distance
 CONTROL_TERMS, SIZE_TERMS = 5, 6  # powers of the control and of the size variable in a force: x^i y^j with i + j < 6
+LEAST_SIZE_TERMS = SIZE_TERMS - CONTROL_TERMS + 1  # at the highest power of the control
 RUPTURE_SIZE_TERMS = 8  # powers of the size variable in a rupture distance
 POWERS = tuple((i, j) for i in range(CONTROL_TERMS) for j in range(SIZE_TERMS) if i + j < SIZE_TERMS)[::-1]
 CELL = len(POWERS) * LANES  # coefficients of a force, or of what goes with it
 RUPTURE_CELL = RUPTURE_SIZE_TERMS * LANES
 
-TERMS = tuple(range(SIZE_TERMS - CONTROL_TERMS + 1, SIZE_TERMS + 1))  # of each power of x, the highest first
+TERMS = tuple(range(LEAST_SIZE_TERMS, SIZE_TERMS + 1))  # of each power of x, the highest first
 MOST_HIGH = 3  # of those terms, the first: i + j ≥ 3, which single precision holds
 _ARE_HIGH = np.array([place < MOST_HIGH for terms in TERMS for place in range(terms)])
-_HIGH_CELL = int(_ARE_HIGH.sum()) * LANES
-_LOW_CELL = CELL - _HIGH_CELL
+HIGH_CELL = int(_ARE_HIGH.sum()) * LANES
+LOW_CELL = CELL - HIGH_CELL
 
 _CACHE_LINE = 64  # [bytes]: eight coefficients
 
@@ -57,11 +58,6 @@ class Cells(NamedTuple):
     high: Singles
 
 
-def to_single(rows: Floats) -> Floats:
-    """Round the coefficients that single precision holds, of (cells, powers, lanes)."""
-    return np.where(_ARE_HIGH[:, None], rows.astype(np.float32), rows)
-
-
 def cells_from(coefficients: Floats) -> Cells:
     """Cells from all coefficients, cell by cell."""
     rows = coefficients.reshape(-1, len(POWERS), LANES)
@@ -79,16 +75,16 @@ def coefficients_of(cells: Cells) -> Floats:
 
 def cell_count(cells: Cells) -> int:
     """Number of cells."""
-    return int(cells.low.size) // _LOW_CELL
+    return int(cells.low.size) // LOW_CELL
 
 
 @kernel
 def _lane(cells: Cells, cell: int, lane: int, x: float, y: float) -> float:
     """Σ_i x^i Σ_j y^j c_ij with i + j < 6, the highest powers first."""
-    total, low, high = 0.0, cell * _LOW_CELL + lane, cell * _HIGH_CELL + lane
+    total, low, high = 0.0, cell * LOW_CELL + lane, cell * HIGH_CELL + lane
     for i in range(CONTROL_TERMS):
         of_y = 0.0
-        for place in range(SIZE_TERMS - CONTROL_TERMS + 1 + i):
+        for place in range(LEAST_SIZE_TERMS + i):
             if place < MOST_HIGH:
                 of_y = of_y * y + np.float64(cells.high[high])
                 high += LANES
