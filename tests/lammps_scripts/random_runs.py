@@ -1,6 +1,6 @@
 """Runs of random events with bridges of the plug-in, and what there is at the end against a plain sum over all pairs.
 
-    mpiexec -n 2 python random_runs.py PLUGIN FOLDER SEED
+    ERRORS_OF_RANKS=/tmp mpiexec -n 2 python random_runs.py PLUGIN FOLDER SEED
 
 Grains come and go, shrink, get other laws, are put elsewhere and go through restart files, in random units, between
 walls or not. Then each pair that overlaps has a bridge, none reaches farther than its rupture distance, and forces and
@@ -9,13 +9,12 @@ energy are those of the table of the folder.
 
 import math
 import sys
-import traceback
 from pathlib import Path
 
 from mpi4py import MPI  # isort: skip  # before LAMMPS, which then finds the library
 
 import numpy as np
-from wet_grains import CONTACTS, FILM, opened, rows_of
+from wet_grains import CONTACTS, FILM, opened, rows_of, run_script
 
 import pendular as pl
 
@@ -255,17 +254,12 @@ def main(plugin: str, folder: str, seed: str) -> None:
     try:
         run.go()
         number = run.check()
-    except Exception:
-        sys.stderr.write(", ".join(run.told) + "\n")
-        raise
+    except Exception as error:
+        raise RuntimeError(", ".join(run.told)) from error
     run.lmp.close()
     if MPI.COMM_WORLD.rank == 0:
         sys.stdout.write(f"{', '.join(run.told)}: {number} bridges\n")
 
 
 if __name__ == "__main__":
-    try:
-        main(*sys.argv[1:])
-    except Exception:
-        traceback.print_exc()
-        MPI.COMM_WORLD.Abort(1)  # else the other ranks would wait for this one
+    run_script(main)

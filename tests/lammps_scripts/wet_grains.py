@@ -1,10 +1,11 @@
 """Grains in motion with bridges of the plug-in that form and break, run by tests on one rank and on two.
 
-    mpiexec -n 2 python wet_grains.py ANSWER PLUGIN NEWTON STEPS SEED STYLE COEFFICIENTS
+    ERRORS_OF_RANKS=/tmp mpiexec -n 2 python wet_grains.py ANSWER PLUGIN NEWTON STEPS SEED STYLE COEFFICIENTS
 
 writes to ANSWER what there is at the end, in the order of the ids.
 """
 
+import os
 import sys
 import traceback
 from pathlib import Path
@@ -134,9 +135,18 @@ def main(answer, plugin, newton, steps, seed, style, coefficients, film):
     lmp.close()
 
 
-if __name__ == "__main__":
+def run_script(main):
+    """Run with the words of the command; an error on one rank ends all, as the others would wait for it.
+
+    It is told in the folder `ERRORS_OF_RANKS`: a launcher may lose what is printed just before its end.
+    """
     try:
         main(*sys.argv[1:])
     except Exception:
-        traceback.print_exc()
-        MPI.COMM_WORLD.Abort(1)  # else the other ranks would wait for this one
+        rank = MPI.COMM_WORLD.rank
+        Path(os.environ["ERRORS_OF_RANKS"], f"rank{rank}.txt").write_text(traceback.format_exc())
+        MPI.COMM_WORLD.Abort(1)
+
+
+if __name__ == "__main__":
+    run_script(main)
