@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 from . import native
 from .objects import context_of_files, unlinked
 from .stamp import source_stamp
+from .wrapping import array_of, call_of
 
 __all__ = [
     "Array",
@@ -127,7 +128,7 @@ def _library_of(functions: Sequence[Function], failed: int) -> Any:
             _write(context, module, function, result.fndesc, failed)
         library.add_ir_module(module)
         library.finalize()
-        library.hide_all_but({function.name: function.name for function in functions})
+        library.hide_all_but([function.name for function in functions])
     return library
 
 
@@ -145,7 +146,6 @@ def _type_of(argument: Argument) -> Any:
 def _write(context: Any, module: Any, function: Function, inner: Any, failed: int) -> None:
     """Write the function of C that calls a kernel; a number is NaN where the kernel broke off."""
     from llvmlite import ir
-    from numba.core.cgutils import get_or_insert_function
 
     returned = _c_type_of(function.returns)
     asked = [_c_type_of(argument) for argument in function.arguments if not isinstance(argument, Constant | Room)]
@@ -157,9 +157,7 @@ def _write(context: Any, module: Any, function: Function, inner: Any, failed: in
             count = next(given)
         else:
             values.append(_value_of(context, builder, argument, given, count))
-    kernel_type = context.call_conv.get_function_type(inner.restype, inner.argtypes)
-    kernel = get_or_insert_function(module, kernel_type, inner.llvm_func_name)
-    ended, answer = context.call_conv.call_function(builder, kernel, inner.restype, inner.argtypes, values)
+    ended, answer = call_of(context, builder, inner, values)
     if isinstance(function.returns, Integer):
         answer = builder.trunc(answer, returned)
     otherwise = failed if isinstance(function.returns, Integer) else math.nan
@@ -197,10 +195,7 @@ def _value_of(context: Any, builder: Any, argument: Argument, given: Iterator[An
 def _array(context: Any, builder: Any, argument: Argument, place: Any, shape: list[Any], size: int) -> Any:
     """An array of a kernel in the memory at a place, with elements of so many bytes."""
     from llvmlite import ir
-    from numba.np.arrayobj import populate_array
 
     whole = ir.IntType(64)
-    strides = [builder.mul(ir.Constant(whole, size), columns) for columns in shape[1:]]
-    array = context.make_array(_type_of(argument))(context, builder)
-    populate_array(array, place, shape, [*strides, ir.Constant(whole, size)], ir.Constant(whole, size), None)
-    return array._getvalue()
+    strides = [*(builder.mul(whole(size), columns) for columns in shape[1:]), whole(size)]
+    return array_of(context, builder, _type_of(argument), place, shape, strides)

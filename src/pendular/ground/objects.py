@@ -1,9 +1,10 @@
 """Object files of kernels, by Numba: code is put together first and optimised once, and nothing of it is loaded."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from functools import cache, partial
 from typing import Any
 
+from .calling import write_caller
 from .compile import fastmath_of, rebound
 
 __all__ = ["HOST", "Entry", "context_of_files", "object_of", "object_of_all", "unlinked"]
@@ -23,19 +24,20 @@ def object_of_all(entries: Mapping[str, Entry], processor: str) -> bytes:
     from numba import typeof
     from numba.core.compiler_lock import global_compiler_lock
 
-    library = context_of_files(processor).codegen().create_library("entries")
-    names = {}
+    context = context_of_files(processor)
+    library = context.codegen().create_library("entries")
+    module = context.create_module("callers")
     with global_compiler_lock:
         for symbol, (function, arguments) in entries.items():
             dispatcher = unlinked(function, processor)
             signature = tuple(typeof(argument) for argument in arguments)
             dispatcher.compile(signature)
             result = dispatcher.overloads[signature]
-            library.add_whole(result.library)
-            names[result.fndesc.llvm_func_name] = symbol
-        assert len(names) == len(entries)
+            library.add_linking_library(result.library)
+            write_caller(context, module, symbol, result.fndesc)
+        library.add_ir_module(module)
         library.finalize()
-        library.hide_all_but(names)
+        library.hide_all_but(entries)
         code: bytes = library.emit_native_object()
     return code
 
@@ -82,18 +84,11 @@ def context_of_files(processor: str = HOST) -> Any:
         def _optimize_final_module(self) -> None:
             pass
 
-        def add_whole(self, library: Any) -> None:
-            """Add a library with the function that it is for; linked to one, what nothing calls is left behind."""
-            library._ensure_finalized()
-            self.add_llvm_module(library._final_module.clone())
-
-        def hide_all_but(self, names: dict[str, str]) -> None:
-            """Hide all but a few functions, which get another name."""
+        def hide_all_but(self, names: Collection[str]) -> None:
+            """Hide all but a few functions."""
             module = self._final_module
             for value in (*module.functions, *module.global_variables):
-                if value.name in names:
-                    value.name, value.linkage = names[value.name], "external"
-                elif not value.is_declaration:
+                if value.name not in names and not value.is_declaration:
                     value.linkage = "internal"
 
         def text(self) -> str:

@@ -100,8 +100,8 @@ def over_rows(
         _spent[function] += perf_counter() - start
         return
     left = deque(range(0, count, chunk))
-    threads = min(thread_count(), len(left))
-    if threads <= 1:
+    threads = min(thread_count(), len(left)) if len(left) > 1 else 1
+    if threads == 1:
         code(*example)
         return
 
