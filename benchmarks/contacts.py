@@ -17,7 +17,7 @@ from numba import njit
 from scipy.interpolate import RegularGridInterpolator
 
 import pendular as pl
-from benchmarks.sections import put
+from benchmarks.sections import machine, put
 from pendular.exact import batch as exact
 from pendular.exact.equations import SUCTION
 from pendular.ground.threads import helpers, thread_count
@@ -41,7 +41,7 @@ TABLES: tuple[tuple[object, str, dict[str, tuple[float, float]]], ...] = (
     (40, "volume", {"radius_ratio": (1.02, math.inf)}),
     ((0, 60), "volume", {"reduced": (1e-9, 0.1)}),
 )
-SIDE = 64  # spheres along the edge of the packing
+SIDE, SMALL_SIDE = 64, 8  # spheres along the edge of the packing, and of one where the call counts
 BYTES = 5 * 8  # separation, two radii, and the result, which is read before it is written
 
 
@@ -188,15 +188,24 @@ def scattered_cost(random: np.random.Generator, table: pl.Table, chunk: int) -> 
     return cost, cost / rival
 
 
-def packing(random: np.random.Generator) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def packing(random: np.random.Generator, side: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Pairs, centres and radii of spheres that stand shaken on a cubic lattice, so that a part of the pairs touch."""
-    radii = random.uniform(0.9, 1.1, SIDE**3) * MEAN_RADIUS
-    places = np.stack(np.meshgrid(*3 * [np.arange(SIDE)], indexing="ij"), axis=-1).reshape(-1, 3)
+    radii = random.uniform(0.9, 1.1, side**3) * MEAN_RADIUS
+    places = np.stack(np.meshgrid(*3 * [np.arange(side)], indexing="ij"), axis=-1).reshape(-1, 3)
     centres = (2.02 * places + random.uniform(-0.02, 0.02, places.shape)) * MEAN_RADIUS
-    number = np.arange(SIDE**3).reshape(3 * (SIDE,))
+    number = np.arange(side**3).reshape(3 * (side,))
     steps = [np.moveaxis(number, axis, 0) for axis in range(3)]
     pairs = np.concatenate([np.column_stack([along[:-1].ravel(), along[1:].ravel()]) for along in steps])
     return pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))], centres, radii
+
+
+def small_step_cost(random: np.random.Generator, table: pl.Table, suction: float, reach: float) -> tuple[int, float]:
+    """Pairs of a small packing, and the time of a whole step of it, [s]."""
+    pairs, centres, radii = packing(random, SMALL_SIDE)
+    asked = table, pairs, centres, radii, suction, GAMMA
+    before = pl.contact_forces(*asked, formation_distance=reach).state
+    cost = median_ns(lambda: pl.contact_forces(*asked, state=before, formation_distance=reach), 1)
+    return len(pairs), cost * 1e-9
 
 
 def builds() -> str:
@@ -288,7 +297,7 @@ def measure() -> str:
     here = pl.bridge(one, separation[:few], suction=suction, liquid=liquid).force
     wrong = np.max(np.abs(out[:few] - here)) / pl.bridge(one, 0.0, suction=suction, liquid=liquid).force
     add(f"**table at one pair**, {curve.series.size} terms", cost, f"{wrong:.1e}")
-    pairs, centres, radii = packing(random)
+    pairs, centres, radii = packing(random, SIDE)
     reach = 0.5 * rupture
     before = pl.contact_forces(table, pairs, centres, radii, suction, GAMMA, formation_distance=reach).state
     some = tuple(array[: len(pairs)] for array in ends)
@@ -301,6 +310,7 @@ def measure() -> str:
         ),
         len(pairs),
     )
+    few_pairs, small_step = small_step_cost(random, table, suction, reach)
     scattered, scattered_ratio = scattered_cost(random, table, chunk)
     copy = median_ns(lambda: np.copyto(out, separation), COUNT)
     bandwidth = 3 * 8 / copy  # GB/s: copying reads both and writes one
@@ -312,12 +322,13 @@ def measure() -> str:
     bound = table.bound
     return f"""## Tables
 
-Written by `python -m benchmarks.contacts`: {COUNT:.0e} random contacts with radii of 25 to 75 µm at a reduced
-suction of {REDUCED_SUCTION:g} (mean pair), contact angle {math.degrees(CONTACT_ANGLE):.0f}°, gaps from 0 to 1.1 of the
-mean rupture distance, seed {SEED}, {thread_count()} threads, medians of {ROUNDS} runs; of {TURNS} turns of both for the
-paper's form and the table. The rival laws are compiled by the same compiler; what depends on the contact angle alone is
-taken out of the paper's loop. The error is the largest one over the force at contact. Copying an array moved
-{bandwidth:.0f} GB/s in the same run; the fourth column is the share of that which a contact's {BYTES} bytes take.
+Written by `python -m benchmarks.contacts` on: {machine()}.
+{COUNT:.0e} random contacts with radii of 25 to 75 µm at a reduced suction of {REDUCED_SUCTION:g} (mean pair), contact
+angle {math.degrees(CONTACT_ANGLE):.0f}°, gaps from 0 to 1.1 of the mean rupture distance, seed {SEED},
+{thread_count()} threads, medians of {ROUNDS} runs; of {TURNS} turns of both for the paper's form and the table. The
+rival laws are compiled by the same compiler; what depends on the contact angle alone is taken out of the paper's loop.
+The error is the largest one over the force at contact. Copying an array moved {bandwidth:.0f} GB/s in the same run; the
+fourth column is the share of that which a contact's {BYTES} bytes take.
 
 | | ns a contact | ratio to the paper's form | share of memory bandwidth | error |
 |---|---:|---:|---:|---:|
@@ -329,7 +340,8 @@ turns of both.
 
 A whole step of `pendular.contact_forces`, from a list of {len(pairs):.1e} pairs and {len(before.pairs):.1e} bridges
 of the step before to forces, virial and bridges of this one, took {step:.0f} ns a pair, {step / rival:.2f} times
-the paper's form on as many contacts: medians of {TURNS} turns of both.
+the paper's form on as many contacts: medians of {TURNS} turns of both. A step of {few_pairs} pairs took
+{small_step * 1e3:.2f} ms, most of which is the call.
 
 The table was built in {build:.1f} s, for reduced suctions from {table.reduced[0]:g} to {table.reduced[1]:g} and all
 size ratios up to the plane; its forces take {mib:.1f} MiB. On {bound.bridges} bridges that it was not made from, its

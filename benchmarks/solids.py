@@ -4,7 +4,6 @@ Both run the same kernels on the same questions, in turns, on one thread, by the
 """
 
 import math
-import os
 import time
 from collections.abc import Callable
 from unittest.mock import patch
@@ -12,7 +11,7 @@ from unittest.mock import patch
 import numpy as np
 
 import pendular as pl
-from benchmarks.sections import put
+from benchmarks.sections import machine, put
 from pendular.ground import rows
 
 SEED, REPEATS = 20261130, 9
@@ -86,9 +85,10 @@ def main() -> None:
         "benchmarks.solids",
         f"""## Other solids
 
-Written by `python -m benchmarks.solids`: random volumes of 0.01 to 1 (of 1 to 2 for the pinned disc) in units of the
+Written by `python -m benchmarks.solids` on: {machine()}.
+Random volumes of 0.01 to 1 (of 1 to 2 for the pinned disc) in units of the
 solids, a gap of 0.05 cube roots of each, through `pl.bridge`, `pl.rupture` and `pl.curve` (51 points) on one thread, by
-the clock of the process, medians of {REPEATS} turns, load {os.getloadavg()[0]:.1f}. Beside each time of machine code
+the clock of the process, medians of {REPEATS} turns. Beside each time of machine code
 stands how many times longer the same kernels take in plain Python in the same run.
 
 | | bridge, µs | plain, times | rupture, µs | plain, times | curve, µs | plain, times |
