@@ -22,8 +22,8 @@ _NAMES = (bool, int, float)  # of numbers: those of NumPy are as these
 _SHAPE, _STRIDES, _DATA = 5, 6, 7  # places in `PyArrayInterface`
 _types: dict[tuple[Any, ...], str] = {}  # spelled, of arguments as they were before
 
-_address_in = ctypes.pythonapi.PyCapsule_GetPointer
-_address_in.argtypes, _address_in.restype = (ctypes.py_object, ctypes.c_char_p), ctypes.c_void_p
+_prototype = ctypes.PYFUNCTYPE(ctypes.c_void_p, ctypes.py_object, ctypes.c_char_p)
+_address_in = _prototype(("PyCapsule_GetPointer", ctypes.pythonapi))  # that of `pythonapi` has the types of anyone
 
 
 def types_of(arguments: tuple[Any, ...]) -> str:
