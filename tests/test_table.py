@@ -77,7 +77,7 @@ def test_bound_holds_in_si_units(name, request):
     assert (np.abs(liquid(*x, GAMMA) - truth) / unit).max() <= table.bound.liquid
 
 
-ANGLES = [(0, 0), (20, 20), (40, 40), (0, 60), (30, 75), (60, 10)]
+ANGLES = [(0, 0), (20, 20), (40, 40), pytest.param((0, 60), marks=pytest.mark.long), (30, 75), (60, 10)]
 
 
 def unseen(table, count, seed):

@@ -36,9 +36,8 @@ from table_reader import (
 )
 
 NVCC = ("nvcc",)
-COMPILERS = [
-    C, ("g++", "-std=c++11"), CPP, ("clang", "-std=c99"), ("clang", "-std=c2x"), ("clang++", "-std=c++11"), NVCC,
-]  # fmt: skip
+OTHERS = [("g++", "-std=c++11"), ("clang", "-std=c99"), ("clang", "-std=c2x"), ("clang++", "-std=c++11"), NVCC]
+COMPILERS = [C, CPP, *(pytest.param(other, marks=pytest.mark.long) for other in OTHERS)]
 needs_c = pytest.mark.skipif(not has_compiler(C), reason="gcc is not installed")
 
 
