@@ -8,7 +8,11 @@ from pathlib import Path
 from typing import Any, Self
 
 _PATIENCE = 60.0  # [s]
-_OWN = "console.error: RSLoader"  # which misses the network
+_OWN = (  # words of the browser about itself: it misses the network, and mends the pages of others
+    "console.error: RSLoader",
+    "console.warn: services.settings:",
+    'console.warn: "Skipping" ',
+)
 _NARROWEST = 500  # window that it has [px]
 _ERRORS = """
 const errors = Services.console.getMessageArray().filter(
