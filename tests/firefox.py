@@ -1,6 +1,7 @@
 """A headless Firefox that is told what to do by its own protocol, Marionette: Playwright needs a build of its own."""
 
 import json
+import re
 import socket
 import subprocess
 import time
@@ -8,10 +9,8 @@ from pathlib import Path
 from typing import Any, Self
 
 _PATIENCE = 60.0  # [s]
-_OWN = (  # words of the browser about itself: it misses the network, and mends the pages of others
-    "console.error: RSLoader",
-    "console.warn: services.settings:",
-    'console.warn: "Skipping" ',
+_OWN = re.compile(  # words of the browser about itself: it misses the network, and mends the pages of others
+    r'console\.(error: RSLoader|warn: services\.settings:|warn: "Skipping" \d+ "un-needed interventions")'
 )
 _NARROWEST = 500  # window that it has [px]
 _ERRORS = """
@@ -125,7 +124,7 @@ class Firefox:
     def complaints(self) -> list[str]:
         """Errors of scripts since the last call, and all that pages wrote on the console since the beginning."""
         said = self._said.read_text(errors="replace").splitlines()
-        of_pages = (line for line in said if line.startswith(("console.e", "console.w")) and not line.startswith(_OWN))
+        of_pages = (line for line in said if line.startswith(("console.e", "console.w")) and not _OWN.match(line))
         return [*self._run_in_itself(_ERRORS), *of_pages]
 
     def wait_for(self, condition: str) -> None:
