@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import pendular as pl
-from benchmarks.contacts import FIT, paper_range, willett_range
+from benchmarks.contacts import FIT, answer_room, paper_range, willett_range
 from benchmarks.sections import machine, put
 from pendular.exact import batch
 from pendular.exact.equations import SUCTION, VOLUME
@@ -93,7 +93,7 @@ def rival_of(sample: Sample) -> Callable[[], object]:
     count = sample.held.size
     rng = np.random.default_rng(SEED)
     radius1, radius2 = (RADIUS * rng.uniform(0.5, 1.5, count) for _ in range(2))
-    gap, out = np.full(count, 0.01 * RADIUS), np.empty(count)
+    gap, out = np.full(count, 0.01 * RADIUS), answer_room(count)
     ends = (gap, radius1, radius2, out, 0, count)
     if sample.name == "volume":
         return lambda: willett_range(0.35, 1e-3 * RADIUS**3, GAMMA, *ends)
