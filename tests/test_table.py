@@ -10,6 +10,7 @@ import pytest
 import pendular as pl
 from pendular.table import arrays, kernels
 from pendular.table.measure import Bound, Measured
+from pendular.table.polynomial import cell_count
 
 GAMMA = 0.0728
 SEED = 20261122
@@ -270,6 +271,20 @@ def test_nan_in_nan_out(table, place):
     operands = tuple(np.array([argument]) for argument in arguments)
     arrays.evaluate(arrays.FORCE, table.grid, operands, out)
     assert np.isnan(out).all()
+
+
+@pytest.mark.parametrize("name", ["table", "two_angles", "volume_table", "all_volumes", "volumes_of_two_angles"])
+def test_whatever_is_asked_only_cells_of_the_table_are_read(name, request):
+    asked = request.getfixturevalue(name)
+    rng = np.random.default_rng(SEED)
+    control = 5e-18 if asked.control == "volume" else 1e4
+    numbers, cells = arrays.block_room(500)
+    for row, usual in enumerate((1e-7, control, 1e-5, 2e-5, GAMMA)):
+        numbers[row] = rng.choice([usual, usual, usual, -usual, 0.0, 1e-300, 1e300, math.inf, -math.inf, math.nan], 500)
+    with np.errstate(all="ignore"):
+        arrays.answer_block(arrays.FORCE, asked.grid, numbers, cells, 500)
+    assert np.all((cells[2] >= 0) & (cells[2] < cell_count(asked.grid.force))), f"seed {SEED}"
+    assert 0 < np.isnan(numbers[-1]).sum() < 500
 
 
 @pytest.mark.parametrize(

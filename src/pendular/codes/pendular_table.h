@@ -301,7 +301,7 @@ PENDULAR_FUNCTION pendular_table_place pendular_table_find(
 {
     pendular_table_place place;
     const double small = radius1 < radius2 ? radius1 : radius2, large = radius1 < radius2 ? radius2 : radius1;
-    const double ratio = small / large, s = (1.0 - ratio) / (1.0 + ratio), radius = 2.0 * small / (1.0 + ratio);
+    const double ratio = small / large, share = 1.0 / (1.0 + ratio), radius = 2.0 * small * share;
     const double reduced = table->is_volume ? control / (radius * radius * radius) : control / surface_tension * radius;
     const int is_covered = reduced >= table->low && reduced <= table->high && ratio >= table->least_ratio
         && ratio <= table->largest_ratio && small > 0.0 && surface_tension > 0.0;
@@ -314,7 +314,7 @@ PENDULAR_FUNCTION pendular_table_place pendular_table_find(
         + (table->sides == 2 && radius1 > radius2 ? table->rows : 0);
     line = table->lines + (int64_t)place.row * PENDULAR_TABLE_LINE;
     cut = table->cuts + (int64_t)place.row * PENDULAR_TABLE_CUT;
-    w = line[PENDULAR_TABLE_U0] + line[PENDULAR_TABLE_U1] * pendular_table_size_of(table, s);
+    w = line[PENDULAR_TABLE_U0] + line[PENDULAR_TABLE_U1] * pendular_table_size_of(table, (1.0 - ratio) * share);
     place.size_cell = cut[PENDULAR_TABLE_SIZE_CELLS]
         + pendular_table_cell(w, cut[PENDULAR_TABLE_U_SHIFT], cut[PENDULAR_TABLE_U_FIRST], cut[PENDULAR_TABLE_U_COUNT]);
     place.y = pendular_table_within(w, cut[PENDULAR_TABLE_U_SHIFT]);

@@ -39,31 +39,31 @@ def answer_block(asked: int, grid: Grid, numbers: Floats, cells: Integers, count
     The first five rows of the numbers are the operands, the last one is the answer; all are worked in.
     """
     separation, control, radius1, radius2, gamma = numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]
-    size, rupture, unit, q, star = numbers[5], numbers[6], numbers[7], numbers[8], numbers[12]
+    size, radius, rupture, q, star = numbers[5], numbers[6], numbers[7], numbers[8], numbers[12]
     at_x, at_y, at_t = numbers[9], numbers[10], numbers[11]
     row, size_cell, cell = cells[0], cells[1], cells[2]
     coefficients = grid.force if asked == FORCE else grid.liquid
     beyond = 0.0 if asked == FORCE else math.nan
     for i in range(count):
         pair = reduce_pair(grid, control[i], radius1[i], radius2[i], gamma[i])
-        control[i], size[i], row[i], rupture[i] = pair.control, pair.size, pair.side, pair.radius
-    for i in range(count):
-        if asked == FORCE:
-            unit[i] = 2.0 * math.pi * gamma[i] * rupture[i]
-        else:
-            unit[i] = liquid_unit(grid, control[i], rupture[i], gamma[i])
+        control[i], size[i], row[i], radius[i] = pair.control, pair.size, pair.side, pair.radius
     for i in range(count):
         row[i], size_cell[i], at_x[i], at_y[i] = place_of(grid, control[i], size[i], row[i])
     for i in range(count):
         star[i] = in_two(grid.rupture, size_cell[i], at_x[i], at_y[i])
     for i in range(count):
-        rupture[i] *= star[i]
+        rupture[i] = radius[i] * star[i]
         q[i] = q_of(separation[i], rupture[i], bend_of(grid, control[i], star[i]))
     for i in range(count):
         cell[i], at_t[i] = cell_of(grid, Place(row[i], size_cell[i], at_x[i], at_y[i]), q[i])
     for i in range(count):
-        value = unit[i] * in_three(coefficients, cell[i], at_x[i], at_y[i], at_t[i])
-        star[i] = if_bridged(value, separation[i], rupture[i], beyond)
+        star[i] = in_three(coefficients, cell[i], at_x[i], at_y[i], at_t[i])
+    for i in range(count):
+        if asked == FORCE:
+            unit = 2.0 * math.pi * gamma[i] * radius[i]
+        else:
+            unit = liquid_unit(grid, control[i], radius[i], gamma[i])
+        star[i] = if_bridged(unit * star[i], separation[i], rupture[i], beyond)
 
 
 @entry(plain_cost=1e-4, patience=1.0)

@@ -134,16 +134,16 @@ def reduce_pair(grid: Grid, control: float, radius1: float, radius2: float, surf
     small = radius1 if radius1 < radius2 else radius2
     large = radius2 if radius1 < radius2 else radius1
     ratio = small / large
-    radius = 2.0 * small / (1.0 + ratio)
-    reduced = control / (radius * radius * radius) if grid.is_volume else control / surface_tension * radius
     inner = within(ratio, grid.least_ratio, grid.largest_ratio)
-    s = (1.0 - inner) / (1.0 + inner)
+    share = 1.0 / (1.0 + inner)  # divisions are what the loop takes its time for
+    radius = 2.0 * small * share
+    reduced = control / (radius * radius * radius) if grid.is_volume else control / surface_tension * radius
     held = within(reduced, grid.low, grid.high)
     is_covered = (held == reduced) & (inner == ratio)
     return Reduced(
         radius if is_covered else math.nan,
         held,
-        size_of(grid, s),
+        size_of(grid, (1.0 - inner) * share),
         1 if (grid.sides == 2) & (radius1 > radius2) else 0,
     )
 
@@ -169,9 +169,12 @@ def bend_of(grid: Grid, control: float, rupture: float) -> float:
 
 @kernel
 def q_of(separation: float, rupture: float, bend: float) -> float:
-    """√((1 - D/D_c)/(1 + D/d)), 0 beyond rupture; solids that overlap count as touching."""
+    """√((1 - D/D_c)/(1 + D/d)), 0 beyond rupture or where none is known; solids that overlap count as touching."""
     share = (separation if separation > 0.0 else 0.0) / rupture
-    return math.sqrt((1.0 - share) / (1.0 + bend * share) if share < 1.0 else 0.0)
+    inner = share if (share >= 0.0) & (share < 1.0) else 1.0  # never NaN: a cell is read at q
+    left = 1.0 - inner
+    # The compiler leaves the division out of a loop under suction.
+    return math.sqrt(left if bend == 0.0 else left / (1.0 + bend * inner))
 
 
 @kernel
