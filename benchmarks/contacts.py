@@ -103,8 +103,8 @@ def willett_range(theta, volume, gamma, separation, radius1, radius2, out, start
 def answer_room(count: int) -> np.ndarray:
     """Room for answers, apart from all other arrays.
 
-    The loops of the compiler ask when they run whether what they write lies beside what they read, and then take the
-    paper's form a third longer.
+    A loop of the compiler asks when it runs whether what it writes lies within a vector of what it reads, and then
+    takes no vectors: the paper's form takes half as long again.
     """
     return np.empty(count + 2 * GAP)[GAP:-GAP]
 
