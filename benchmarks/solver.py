@@ -11,6 +11,7 @@ import statistics
 import time
 import tracemalloc
 from collections.abc import Callable
+from functools import partial
 from typing import Any, NamedTuple
 
 import numba
@@ -161,11 +162,14 @@ def threads_note() -> list[str]:
     """Time by the clock on the wall on one thread and on more, and the memory that an array of bridges takes."""
     sample = draw("volume", 300_000)
     cores = numba.config.NUMBA_NUM_THREADS
-    told = []
-    for threads in sorted({1, min(2, cores), cores}):
+
+    def on(threads: int) -> None:
         numba.set_num_threads(threads)
-        taken = medians({"all": sample.ask}, time.perf_counter)["all"] / sample.held.size
-        told.append(f"{taken:.0f} ns on {threads}")
+        sample.ask()
+
+    ways = {str(threads): partial(on, threads) for threads in sorted({1, min(2, cores), cores})}
+    taken = medians(ways, time.perf_counter)
+    told = [f"{cost / sample.held.size:.0f} ns on {threads}" for threads, cost in taken.items()]
     numba.set_num_threads(1)
     tracemalloc.start()
     found = sample.ask()
