@@ -3,6 +3,7 @@
 import re
 import subprocess
 import sys
+import time
 from collections import Counter
 
 import dask
@@ -328,6 +329,7 @@ def test_a_damaged_chunk_is_computed_anew(tmp_path, short_chunks, damage):
             pl.interpolate(pl.load_dataset(path), "suction", 10.0, 0.0, 1.0, 0.0)
         with refused("dataset: it is damaged, or no data base: "):
             pl.save_dataset(pl.load_dataset(path), tmp_path / "bridges.nc")
+        time.sleep(0.1)  # for threads that might go on
         assert [entry.name for entry in tmp_path.iterdir()] == ["bridges.zarr"]
     assert ds.make_dataset(path, **SMALL).identical(ds.make_dataset(**SMALL))
 

@@ -5,6 +5,7 @@ ratio, for pairs of spheres of one contact angle. All lengths are over the Derja
 """
 
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
 from functools import partial
 from os import PathLike
@@ -16,6 +17,7 @@ from numpy.typing import ArrayLike
 
 from ..ground.check import as_path, whole_number
 from ..ground.files import in_one_line, whole
+from ..ground.threads import thread_count
 from . import store as stores
 from .variables import LABELS, Coordinates, check_dataset, compute, coordinates, labelled
 
@@ -159,8 +161,18 @@ def save_dataset(dataset: "xr.Dataset", path: StrPath) -> None:
         if target.suffix == ".zarr":
             stores.write(dataset, draft)
         else:
-            checked = {name: {"fletcher32": True} for name in dataset.data_vars}
-            dataset.chunk({}).to_netcdf(draft, engine="h5netcdf", encoding=checked)
+            with _own_threads():
+                checked = {name: {"fletcher32": True} for name in dataset.data_vars}
+                dataset.chunk({}).to_netcdf(draft, engine="h5netcdf", encoding=checked)
+
+
+@contextmanager
+def _own_threads() -> Iterator[None]:
+    """Threads for Dask that end here: after an error its own go on, and would write to a file that has been removed."""
+    import dask
+
+    with ThreadPoolExecutor(thread_count()) as pool, dask.config.set(pool=pool):
+        yield
 
 
 def load_dataset(path: StrPath) -> "xr.Dataset":
