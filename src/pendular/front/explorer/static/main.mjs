@@ -348,7 +348,8 @@ function later(isMapOld) {
   waiting = setTimeout(() => {
     if (!answer.branch.isWhole) showAnswer(answerTo(answer.view, exact, answer));
     at("spoken").textContent = spoken(answer);
-    history.replaceState(null, "", `#${hashOf(answer.view)}`);
+    // A link to the heap may just have been followed.
+    if (!asksForHeap(location.hash.slice(1))) history.replaceState(null, "", `#${hashOf(answer.view)}`);
     if (isMapWaiting) startMap();
     isMapWaiting = false;
   }, PAUSE);
