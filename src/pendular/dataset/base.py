@@ -157,13 +157,12 @@ def save_dataset(dataset: "xr.Dataset", path: StrPath) -> None:
     if target.suffix not in (".zarr", ".nc"):
         raise ValueError(f"path: {target.name} ends neither in .zarr nor in .nc")
     check_dataset(dataset)
-    with in_one_line("path", target), whole(target) as draft, stores.damage_told("dataset", "it"):
+    with in_one_line("path", target), whole(target) as draft, _own_threads(), stores.damage_told("dataset", "it"):
         if target.suffix == ".zarr":
             stores.write(dataset, draft)
         else:
-            with _own_threads():
-                checked = {name: {"fletcher32": True} for name in dataset.data_vars}
-                dataset.chunk({}).to_netcdf(draft, engine="h5netcdf", encoding=checked)
+            checked = {name: {"fletcher32": True} for name in dataset.data_vars}
+            dataset.chunk({}).to_netcdf(draft, engine="h5netcdf", encoding=checked)
 
 
 @contextmanager
